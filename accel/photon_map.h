@@ -1,0 +1,72 @@
+// The photons of one pass in a kd-tree: k nearest and all within a radius, exactly as brute force
+// over the same photons would answer, ties included.
+//
+// Layout: positions in leaves as a structure of arrays for SIMD, payloads apart; an implicit
+// balanced tree over the leaves. 28 bytes a photon and about 1 for the tree. Immutable after
+// construction, so thread-safe. The same photons in the same order give the same tree whatever the
+// number of threads: order is total (coordinate, then index).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/photon.h"
+
+namespace octolux {
+
+/// What counts as near, and which photons count at all.
+struct PhotonQuery {
+  Vec3 position;
+  Vec3 normal;               // geometric, unit, on the side of the viewer
+  float max_radius = 1e30f;  // [m] in the squashed metric
+  int max_segments = 255;    // photons with longer paths do not count
+  bool both_sides = false;   // count photons arriving from either side (smooth transmission)
+  float squash = 3;          // metric: |d|^2 + (squash^2 - 1) (d . normal)^2 (Jensen 2002)
+};
+
+/// The tests every photon must pass to count: surfaces agree, |cos| > 0.7, same side; it arrived
+/// above the query's surface; path not too long.
+struct Neighbour {
+  float distance2 = 0;       // [m^2] squared, in the squashed metric
+  std::uint32_t photon = 0;  // index in the map's own order
+};
+constexpr bool operator<(const Neighbour& a, const Neighbour& b) {
+  return a.distance2 < b.distance2 || (a.distance2 == b.distance2 && a.photon < b.photon);
+}
+
+/// Scratch space of one thread's queries; reused, so queries do not allocate.
+struct NeighbourBuffer {
+  std::vector<Neighbour> items;
+};
+
+class PhotonMap {
+ public:
+  PhotonMap() = default;
+  /// Builds in parallel. Photons with a non-finite position, direction or flux, or negative flux,
+  /// are left out and counted.
+  explicit PhotonMap(std::vector<Photon> photons);
+
+  /// The k nearest photons that count, at a distance below max_radius, smallest k by (distance2,
+  /// photon); fewer if there are fewer. Not sorted, except that the last one is the farthest.
+  /// The span points into `buffer`.
+  std::span<const Neighbour> nearest(const PhotonQuery& query, std::size_t k,
+                                     NeighbourBuffer& buffer) const;
+  /// All photons that count at a distance below query.max_radius, in the map's order.
+  std::span<const Neighbour> within(const PhotonQuery& query, NeighbourBuffer& buffer) const;
+
+  std::size_t size() const { return payloads_.size(); }
+  std::size_t rejected() const { return rejected_; }
+  /// Bytes held, tree included.
+  std::size_t memory() const;
+  Vec3 position(std::uint32_t photon) const;
+  const PhotonPayload& payload(std::uint32_t photon) const { return payloads_[photon]; }
+  Rgb flux(std::uint32_t photon) const { return unpack_flux(payloads_[photon].flux); }
+  Vec3 wi(std::uint32_t photon) const { return octolux::wi(payloads_[photon]); }
+
+ private:
+  std::vector<PhotonPayload> payloads_;
+  std::size_t rejected_ = 0;
+};
+
+}  // namespace octolux

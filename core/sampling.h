@@ -1,0 +1,54 @@
+// Warps of the unit square, each next to its density. Local frames have z along the axis.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/constants.h"
+#include "core/vec.h"
+
+namespace octolux {
+
+/// Uniform on the unit disk, concentric (Shirley & Chiu 1997): keeps strata compact.
+inline Vec2 sample_disk(Vec2 u) {
+  const float a = 2 * u.x - 1;
+  const float b = 2 * u.y - 1;
+  if (a == 0 && b == 0) return {0, 0};
+  const bool wide = std::abs(a) > std::abs(b);
+  const float r = wide ? a : b;
+  const float phi = wide ? (kPi / 4) * (b / a) : (kPi / 2) - (kPi / 4) * (a / b);
+  return {r * std::cos(phi), r * std::sin(phi)};
+}
+
+/// Cosine-distributed on the hemisphere z > 0 (Malley).
+inline Vec3 sample_cosine_hemisphere(Vec2 u) {
+  const Vec2 d = sample_disk(u);
+  return {d.x, d.y, std::sqrt(std::max(1e-14f, 1 - d.x * d.x - d.y * d.y))};
+}
+inline float cosine_hemisphere_pdf_w(Vec3 w) { return w.z > 0 ? w.z * kInvPi : 0; }
+
+/// Uniform on the unit sphere; density 1 / (4 pi).
+inline Vec3 sample_sphere(Vec2 u) {
+  const float z = 1 - 2 * u.x;
+  const float r = std::sqrt(std::max(0.0f, 1 - z * z));
+  const float phi = 2 * kPi * u.y;
+  return {r * std::cos(phi), r * std::sin(phi), z};
+}
+inline constexpr float kUniformSpherePdfW = kInvPi / 4;
+
+/// Barycentrics (u, v) of a uniform point of a triangle.
+inline Vec2 sample_triangle(Vec2 u) {
+  const float root = std::sqrt(u.x);
+  return {1 - root, u.y * root};
+}
+
+/// Power heuristic (Veach 1997, 9.2.4) of `n_a` samples of density `pdf_a` against `n_b` of
+/// `pdf_b`.
+inline float power_heuristic(float n_a, float pdf_a, float n_b, float pdf_b) {
+  const float a = n_a * pdf_a;
+  const float b = n_b * pdf_b;
+  if (std::isinf(a * a)) return 1;
+  return a == 0 ? 0 : a * a / (a * a + b * b);
+}
+
+}  // namespace octolux

@@ -1,0 +1,88 @@
+// A BSDF at a point of a surface, seen from `wo`: world-space directions, and the care that
+// interpolated shading normals need.
+//
+// A direction must lie on the same side of the shading and of the geometric normal, otherwise light
+// would leak through the surface. Photons are scattered by the adjoint BSDF: its ratio of cosines
+// (Veach 1997, 5.3.2) keeps photon and eye paths in agreement.
+#pragma once
+
+#include <optional>
+
+#include "core/bsdf.h"
+#include "core/frame.h"
+#include "core/ray.h"
+
+namespace octolux {
+
+class Scattering {
+ public:
+  /// `wo`: unit, world space, away from the surface.
+  Scattering(const SurfacePoint& point, const Bsdf& bsdf, Vec3 wo, Carried carried)
+      : point_(point),
+        bsdf_(bsdf),
+        frame_(Frame::from_normal(point.ns)),
+        wo_(wo),
+        wo_local_(frame_.to_local(wo)),
+        wo_ng_(dot(wo, point.ng)),
+        carried_(carried) {}
+
+  const SurfacePoint& point() const { return point_; }
+  const Bsdf& bsdf() const { return bsdf_; }
+  Vec3 wo() const { return wo_; }
+  /// Geometric normal on wo's side.
+  Vec3 facing_normal() const { return wo_ng_ < 0 ? -point_.ng : point_.ng; }
+
+  /// f(wo, wi) [sr^-1] without cosine; wi in world space.
+  Rgb f(Vec3 wi, Lobes lobes) const {
+    const Vec3 local = frame_.to_local(wi);
+    if (!consistent(wi, local)) return Rgb(0);
+    return bsdf_.f(point_, wo_local_, local, lobes, carried_) * adjoint(wi, local);
+  }
+
+  /// f |cos wi|, as next-event estimation wants it.
+  Rgb f_cos(Vec3 wi, Lobes lobes) const { return f(wi, lobes) * std::abs(dot(wi, point_.ns)); }
+
+  float pdf_w(Vec3 wi, Lobes lobes) const {
+    return bsdf_.pdf_w(point_, wo_local_, frame_.to_local(wi), lobes);
+  }
+
+  /// As Bsdf::sample, with wi in world space.
+  std::optional<BsdfSample> sample(float u_lobe, Vec2 u, Lobes lobes) const {
+    std::optional<BsdfSample> s = bsdf_.sample(point_, wo_local_, u_lobe, u, lobes, carried_);
+    if (!s) return s;
+    const Vec3 local = s->wi;
+    s->wi = frame_.to_world(local);
+    if (!consistent(s->wi, local)) return std::nullopt;
+    s->weight *= adjoint(s->wi, local);
+    return s;
+  }
+
+  Rgb pass_through() const { return bsdf_.pass_through(point_, wo_local_); }
+  std::optional<Rgb> lambertian() const {
+    return wo_ng_ * wo_local_.z > 0 ? bsdf_.lambertian(point_, wo_local_) : std::nullopt;
+  }
+
+  /// A ray leaving this point towards `direction`.
+  Ray spawn(Vec3 direction) const {
+    return {offset_origin(point_.position, point_.ng, point_.error, direction), direction};
+  }
+
+ private:
+  bool consistent(Vec3 wi, Vec3 wi_local) const {
+    return dot(wi, point_.ng) * wi_local.z > 0 && wo_ng_ * wo_local_.z > 0;
+  }
+  float adjoint(Vec3 wi, Vec3 wi_local) const {
+    if (carried_ == Carried::radiance || point_.ns == point_.ng) return 1;
+    return std::abs((wo_local_.z * dot(wi, point_.ng)) / (wo_ng_ * wi_local.z));
+  }
+
+  const SurfacePoint& point_;
+  const Bsdf& bsdf_;
+  Frame frame_;
+  Vec3 wo_;
+  Vec3 wo_local_;
+  float wo_ng_;
+  Carried carried_;
+};
+
+}  // namespace octolux

@@ -1,0 +1,52 @@
+// Everything a picture is made from. Owns all of it; the passes hold it by const reference.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "accel/ray_caster.h"
+#include "core/bsdf.h"
+#include "core/camera.h"
+#include "core/filter.h"
+#include "core/light.h"
+#include "core/shape.h"
+#include "core/texture.h"
+
+namespace octolux {
+
+struct Scene {
+  std::vector<Shape> shapes;
+  std::vector<std::unique_ptr<Bsdf>> bsdfs;
+  std::vector<std::unique_ptr<Texture>> textures;
+  std::vector<std::unique_ptr<Light>> lights;
+  /// Per shape: its area light, or nullptr. Filled by complete().
+  std::vector<const AreaLight*> area_light_of_shape;
+  const EnvironmentLight* environment = nullptr;  // one of `lights`, or none
+
+  CameraConfig camera_config;
+  FilmSize film;
+  Filter filter;
+  Camera camera;
+
+  /// Longest light path in segments, camera to light, straight transmissions included (Mitsuba's
+  /// maxDepth: 1 is visible lights only, 2 direct light). -1 for no limit.
+  int max_depth = -1;
+  /// Does this file's integrator hide directly visible emitters (Mitsuba's hideEmitters)?
+  bool hide_emitters = false;
+
+  std::uint64_t hash = 0;             // of all files read and of -D values
+  std::vector<std::string> warnings;  // what was ignored or assumed while loading
+
+  std::unique_ptr<RayCaster> caster;  // built by complete()
+  bool any_pass_through = false;      // some BSDF passes light straight on
+  bool any_specular = false;          // some BSDF has a specular lobe, so caustics are possible
+
+  const Bsdf& bsdf(std::uint32_t shape) const { return *bsdfs[shapes[shape].bsdf]; }
+
+  /// Builds what follows from the lists above. Call once after loading; then nothing may change.
+  void complete();
+};
+
+}  // namespace octolux
