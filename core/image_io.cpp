@@ -73,7 +73,8 @@ Image ExrFile::image(const std::string& name) const {
   const std::vector<float>* r = find_plane(*layer, "R");
   const std::vector<float>* g = find_plane(*layer, "G");
   const std::vector<float>* b = find_plane(*layer, "B");
-  if (!r && !g && !b) r = g = b = find_plane(*layer, "Y");
+  const bool is_vector = find_plane(*layer, "X") != nullptr;  // whose Y is no luminance
+  if (!r && !g && !b && !is_vector) r = g = b = find_plane(*layer, "Y");
   if (!r || !g || !b) throw Error("the picture has no R, G and B, nor Y, in " + which);
   Image image(width, height);
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
