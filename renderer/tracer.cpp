@@ -7,7 +7,7 @@ std::optional<SurfaceHit> Tracer::next(Ray ray, Rgb& weight, int& segments) {
   float distance = 0;
   while (true) {
     ++segments;
-    ++rays_;
+    count(ray, false);
     const std::optional<RayHit> hit = scene_.caster->closest(ray);
     if (!hit) return std::nullopt;
     distance += hit->t;
@@ -42,7 +42,7 @@ Ray connect(const SurfacePoint& from, const LightSample& light) {
 
 Rgb Tracer::visibility(const SurfacePoint& from, const LightSample& light, int max_crossings) {
   Ray ray = connect(from, light);
-  ++rays_;
+  count(ray, true);
   if (!scene_.any_pass_through) return Rgb(scene_.caster->occluded(ray) ? 0.0f : 1.0f);
 
   Rgb share(1);
@@ -57,7 +57,7 @@ Rgb Tracer::visibility(const SurfacePoint& from, const LightSample& light, int m
     if (is_black(share)) return share;
     const Ray rest = at.spawn(light.wi);
     ray = light.infinite ? rest : Ray{rest.origin, ray.origin + ray.direction - rest.origin, 0, 1};
-    ++rays_;
+    count(ray, true);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "core/light.h"
 #include "core/rng.h"
@@ -34,12 +35,25 @@ class Tracer {
   /// masks, of which it may cross at most `max_crossings`.
   Rgb visibility(const SurfacePoint& from, const LightSample& light, int max_crossings);
 
+  /// A ray as it was cast, for benchmarks that cast the same rays again.
+  struct LoggedRay {
+    Ray ray;
+    bool shadow = false;
+  };
+  /// Where every ray is written, if set.
+  std::vector<LoggedRay>* log = nullptr;
+
   const Scene& scene() const { return scene_; }
   std::int64_t rays() const { return rays_; }
 
   Rng rng;
 
  private:
+  void count(const Ray& ray, bool shadow) {
+    ++rays_;
+    if (log) log->push_back({ray, shadow});
+  }
+
   const Scene& scene_;
   std::int64_t rays_ = 0;
 };
