@@ -36,8 +36,9 @@ std::string draw_bar(const Progress& p) {
   if (p.remaining_seconds < 0) return "";
   const double total = p.seconds + p.remaining_seconds;
   const double share = total > 0 ? std::clamp(p.seconds / total, 0.0, 1.0) : 1;
-  const int full = static_cast<int>(std::lround(share * kBarWidth));
-  return "[" + std::string(full, '#') + std::string(kBarWidth - full, '.') + "] ";
+  std::string bar(kBarWidth, '.');
+  std::fill_n(bar.begin(), std::lround(share * kBarWidth), '#');
+  return fmt::format("[{}] ", bar);
 }
 
 std::size_t terminal_width() {

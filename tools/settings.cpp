@@ -55,8 +55,10 @@ void assign(const std::string& source, bool& value, const std::string& text) {
   }
 }
 
-void assign(const std::string& source, double& value, const std::string& text) {
-  value = parse_number(source, text);
+template <class T>
+  requires std::is_floating_point_v<T>
+void assign(const std::string& source, T& value, const std::string& text) {
+  value = static_cast<T>(parse_number(source, text));
 }
 
 template <class T>
