@@ -4,13 +4,13 @@
 namespace octolux {
 
 namespace {
-struct Disc {
+struct Flat {
   float k(float /*s*/) const { return kInvPi; }
 };
 }  // namespace
 
 std::unique_ptr<Estimator> make_disc(const EstimatorConfig& config) {
-  return std::make_unique<Radial<Disc>>(config.neighbours, Disc{});
+  return std::make_unique<Radial<Flat>>(config.neighbours, Flat{});
 }
 
 }  // namespace octolux

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "accel/photon_map.h"
+#include "accel/ray_caster.h"
 #include "core/scattering.h"
 
 namespace octolux {
@@ -27,8 +28,10 @@ struct EstimatorConfig {
 
 /// Where radiance is wanted.
 struct GatherPoint {
-  const Scattering& at;    // point, BSDF and wo
-  int max_segments = 255;  // photons with longer paths do not count
+  const Scattering& at;               // point, BSDF and wo
+  int max_segments = 255;             // photons with longer paths do not count
+  const RayCaster* caster = nullptr;  // for kernels that look at the geometry around the point
+  float turn = 0;                     // random in [0, 1), independent of the photons
 };
 
 /// How wide a look-up may be: the same for all look-ups in one map of one pass.
@@ -37,14 +40,20 @@ struct Bandwidth {
   float shrink = 1;              // s_k of the pass, in (0, 1]
 };
 
+/// What a look-up found.
+struct Estimate {
+  Rgb radiance;         // [W m^-2 sr^-1] leaving at.point towards at.wo by the smooth lobes
+  float bandwidth = 0;  // h [m]
+  float area = 0;       // [m^2] the sum of flux was divided by (weights included)
+  int count = 0;        // photons that took part
+};
+
 /// Immutable, thread-safe.
 class Estimator {
  public:
   virtual ~Estimator() = default;
-  /// Radiance [W m^-2 sr^-1] leaving at.point towards at.wo by the smooth lobes, due to the photons
-  /// of `map`.
-  virtual Rgb radiance(const GatherPoint& at, const PhotonMap& map,
-                       const Bandwidth& bandwidth) const = 0;
+  virtual Estimate estimate(const GatherPoint& at, const PhotonMap& map,
+                            const Bandwidth& bandwidth) const = 0;
 };
 
 /// The query every kernel starts from: facing normal, which sides count, path length.

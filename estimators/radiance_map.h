@@ -20,7 +20,7 @@ class RadianceMap {
 
   /// Radiance [W m^-2 sr^-1] leaving the point through its smooth lobes.
   Rgb radiance(const GatherPoint& at) const {
-    return empty() ? Rgb(0) : estimator_->radiance(at, photons_, bandwidth_);
+    return empty() ? Rgb(0) : estimator_->estimate(at, photons_, bandwidth_).radiance;
   }
 
   /// Bandwidth [m] of a look-up of `neighbours` photons at the point.

@@ -36,13 +36,13 @@ int FinalGather::remaining(int segments) const {
   return scene_.max_depth < 0 ? kUnlimited : scene_.max_depth - segments;
 }
 
-GatherPoint FinalGather::gather_point(const Scattering& at, int segments) const {
-  return {at, std::min(255, remaining(segments))};
+GatherPoint FinalGather::gather_point(Tracer& tracer, const Scattering& at, int segments) const {
+  return {at, std::min(255, remaining(segments)), scene_.caster.get(), tracer.rng.uniform()};
 }
 
 SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at, int segments) const {
   if (!config_.eye.gather) {
-    return {Rgb(0), Rgb(0), maps_.global.radiance(gather_point(at, segments))};
+    return {Rgb(0), Rgb(0), maps_.global.radiance(gather_point(tracer, at, segments))};
   }
   return radiance(tracer, at, {segments, config_.eye.gather_rays, -1, 0});
 }
@@ -54,7 +54,7 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
   const DirectStrategy strategy{Lobes::smooth, Lobes::smooth, light_samples_, level.rays};
   out.direct = sample_lights(tracer, lights_, at, strategy, remaining(level.segments) - 1);
 
-  const GatherPoint point = gather_point(at, level.segments);
+  const GatherPoint point = gather_point(tracer, at, level.segments);
   if (maps_.caustics_mapped) out.caustic = maps_.caustic.radiance(point);
 
   Level next = level;
@@ -106,7 +106,7 @@ Rgb FinalGather::follow(Tracer& tracer, Ray ray, const Level& level, Arrival arr
         const Level next{segments, 1, level.read_distance, level.retraces + 1};
         total += beta * radiance(tracer, at, next).total();
       } else {
-        total += beta * maps_.global.radiance(gather_point(at, segments));
+        total += beta * maps_.global.radiance(gather_point(tracer, at, segments));
       }
     }
     if (!hit->bsdf->has(Lobes::specular)) break;
