@@ -37,6 +37,18 @@ std::string_view trim(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
 }
 
+namespace {
+
+/// Where a comment begins behind a statement's words, or its length. "1.#IND" is no comment.
+std::size_t comment_start(std::string_view line) {
+  for (std::size_t i = line.find('#'); i != std::string_view::npos; i = line.find('#', i + 1)) {
+    if (line[i - 1] == ' ' || line[i - 1] == '\t') return i;
+  }
+  return line.size();
+}
+
+}  // namespace
+
 ObjText::ObjText(const std::string& path) : path_(path), text_(read_text_file(path)) {
   hash_ = hash_bytes(0, text_);
   text_ += '\n';
@@ -67,9 +79,8 @@ void ObjText::read_statement(std::size_t begin, std::size_t end) {
   const std::size_t word_end = std::min(text_.find_first_of(" \t", begin), end);
   const std::string_view word(text_.data() + begin, word_end - begin);
   if (word == "v" || word == "vn" || word == "vt" || word == "f") {
-    const auto line_end = text_.begin() + static_cast<std::ptrdiff_t>(end);
-    const auto line_begin = text_.begin() + static_cast<std::ptrdiff_t>(begin);
-    std::fill(std::find(line_begin, line_end, '#'), line_end, ' ');
+    const std::size_t comment = begin + comment_start({text_.data() + begin, end - begin});
+    std::fill_n(text_.begin() + static_cast<std::ptrdiff_t>(comment), end - comment, ' ');
   } else if (word == "mtllib") {
     const auto rest = trim({text_.data() + word_end, end - word_end});
     if (!rest.empty()) mtllibs_.emplace_back(rest);
