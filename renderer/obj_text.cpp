@@ -31,6 +31,12 @@ std::string read_text_file(const std::string& path) {
   return bytes;
 }
 
+void unify_line_breaks(std::string& text) {
+  for (std::size_t i = text.find('\r'); i != std::string::npos; i = text.find('\r', i + 1)) {
+    text[i] = i + 1 < text.size() && text[i + 1] == '\n' ? ' ' : '\n';
+  }
+}
+
 std::string_view trim(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \t\r\n");
   if (begin == std::string_view::npos) return {};
@@ -52,7 +58,8 @@ std::size_t comment_start(std::string_view line) {
 ObjText::ObjText(const std::string& path) : path_(path), text_(read_text_file(path)) {
   hash_ = hash_bytes(0, text_);
   text_ += '\n';
-  unify_line_breaks();
+  unify_line_breaks(text_);
+  join_continued_lines();
   for (std::size_t begin = 0; begin < text_.size();) {
     const std::size_t end = text_.find('\n', begin);
     read_statement(begin, end);
@@ -60,10 +67,7 @@ ObjText::ObjText(const std::string& path) : path_(path), text_(read_text_file(pa
   }
 }
 
-void ObjText::unify_line_breaks() {
-  for (std::size_t i = text_.find('\r'); i != std::string::npos; i = text_.find('\r', i + 1)) {
-    text_[i] = text_[i + 1] == '\n' ? ' ' : '\n';  // a '\n' was appended, so i + 1 exists
-  }
+void ObjText::join_continued_lines() {
   for (std::size_t i = text_.find('\\'); i != std::string::npos; i = text_.find('\\', i + 1)) {
     const std::size_t end = text_.find_first_not_of(' ', i + 1);
     const bool last = end != std::string::npos && end + 1 == text_.size();

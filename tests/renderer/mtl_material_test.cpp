@@ -30,7 +30,7 @@ std::string error_of(const std::string& text) {
 TEST(MtlFile, ValuesAndDefaults) {
   const MtlMaterial m = material(
       "Kd 0.1 .2 3e-1 # red\n\tKs 0.5\r\nKe 17 12 4\nTf 0.9 0.8 0.7\nNs 200\nNi 1.6\nd 0.25\n"
-      "illum 2\nmap_Kd a b.png\n");
+      "illum 2\nmap_Kd a b.png\nbump -bm 2 c.png\n");
   EXPECT_EQ(m.kd, Rgb(0.1f, 0.2f, 0.3f));
   EXPECT_EQ(m.ks, Rgb(0.5f));  // a single number stands for all three
   EXPECT_EQ(m.ke, Rgb(17, 12, 4));
@@ -39,6 +39,9 @@ TEST(MtlFile, ValuesAndDefaults) {
   EXPECT_EQ(m.ni, 1.6f);
   EXPECT_EQ(m.opacity, 0.25f);
   EXPECT_EQ(m.illum, 2);
+  ASSERT_EQ(m.maps.size(), 2u);
+  EXPECT_EQ(m.maps[0], (std::pair<std::string, std::string>("map_Kd", "a b.png")));
+  EXPECT_EQ(m.maps[1], (std::pair<std::string, std::string>("bump", "c.png")));
   const MtlMaterial none = material("");
   EXPECT_EQ(none.kd, Rgb(0));
   EXPECT_EQ(none.ni, 1);
