@@ -221,6 +221,7 @@ std::string XmlDocument::find_file(const std::string& name, const Location& wher
   std::vector<std::string> folders{fs::path(where.file).parent_path().string()};
   // Later <path>s win, as in Mitsuba.
   folders.insert(folders.end(), search_path_.rbegin(), search_path_.rend());
+  folders.erase(std::unique(folders.begin(), folders.end()), folders.end());
   for (const std::string& folder : folders) {
     const fs::path candidate = fs::path(folder) / name;
     if (fs::is_regular_file(candidate)) return candidate.string();
