@@ -136,7 +136,9 @@ XmlNode XmlReader::read_node(const pugi::xml_node& xml, const Source& source) {
 
 void XmlReader::read_child(const pugi::xml_node& xml, const Source& source, XmlNode& parent) {
   if (xml.type() == pugi::node_pcdata || xml.type() == pugi::node_cdata) {
-    fail(locate(source.path, source.text, xml.offset_debug()),
+    const std::size_t begin = static_cast<std::size_t>(xml.offset_debug());
+    const std::size_t word = source.text.find_first_not_of(" \t\r\n", begin);
+    fail(locate(source.path, source.text, static_cast<std::ptrdiff_t>(word)),
          "unexpected text inside <" + parent.tag + ">");
   }
   if (xml.type() != pugi::node_element) return;
