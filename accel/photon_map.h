@@ -1,16 +1,17 @@
 // The photons of one pass in a kd-tree: k nearest and all within a radius, exactly as brute force
-// over the same photons would answer, ties included.
+// over the same photons would answer, ties included. Which photons count is decided inside the
+// query (accel/photon_filter.h), so k of them really are k that count.
 //
-// Layout: positions in leaves as a structure of arrays for SIMD, payloads apart; an implicit
-// balanced tree over the leaves. 28 bytes a photon and about 1 for the tree. Immutable after
-// construction, so thread-safe. The same photons in the same order give the same tree whatever the
-// number of threads: order is total (coordinate, then index).
+// Layout: accel/photon_tree.h, payloads apart in the same order; 28.5 bytes a photon. Immutable
+// after construction, so thread-safe. The same photons in the same order give the same map whatever
+// the number of threads.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "accel/photon_tree.h"
 #include "core/photon.h"
 
 namespace octolux {
@@ -22,11 +23,10 @@ struct PhotonQuery {
   float max_radius = 1e30f;  // [m] in the squashed metric
   int max_segments = 255;    // photons with longer paths do not count
   bool both_sides = false;   // count photons arriving from either side (smooth transmission)
-  float squash = 3;          // metric: |d|^2 + (squash^2 - 1) (d . normal)^2 (Jensen 2002)
+  float squash = 3;          // >= 1; metric |d|^2 + (squash^2 - 1) (d . normal)^2 (Jensen 2002)
 };
 
-/// The tests every photon must pass to count: surfaces agree, |cos| > 0.7, same side; it arrived
-/// above the query's surface; path not too long.
+/// A photon near a query's position.
 struct Neighbour {
   float distance2 = 0;       // [m^2] squared, in the squashed metric
   std::uint32_t photon = 0;  // index in the map's own order
@@ -43,8 +43,8 @@ struct NeighbourBuffer {
 class PhotonMap {
  public:
   PhotonMap() = default;
-  /// Builds in parallel. Photons with a non-finite position, direction or flux, or negative flux,
-  /// are left out and counted.
+  /// Builds in parallel. Photons with a non-finite position, direction, normal or flux, or negative
+  /// flux, are left out and counted.
   explicit PhotonMap(std::vector<Photon> photons);
 
   /// The k nearest photons that count, at a distance below max_radius, smallest k by (distance2,
@@ -59,13 +59,14 @@ class PhotonMap {
   std::size_t rejected() const { return rejected_; }
   /// Bytes held, tree included.
   std::size_t memory() const;
-  Vec3 position(std::uint32_t photon) const;
+  Vec3 position(std::uint32_t photon) const { return tree_.position(photon); }
   const PhotonPayload& payload(std::uint32_t photon) const { return payloads_[photon]; }
   Rgb flux(std::uint32_t photon) const { return unpack_flux(payloads_[photon].flux); }
   Vec3 wi(std::uint32_t photon) const { return octolux::wi(payloads_[photon]); }
 
  private:
-  std::vector<PhotonPayload> payloads_;
+  PhotonTree tree_;
+  std::vector<PhotonPayload> payloads_;  // in the tree's order
   std::size_t rejected_ = 0;
 };
 

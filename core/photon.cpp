@@ -11,9 +11,15 @@ namespace {
 
 constexpr std::uint64_t kMantissaEnd = 1u << kFluxBits;
 
+/// As std::frexp's, of a positive number; every float is a normal double.
+int exponent_of(float x) {
+  return static_cast<int>(std::bit_cast<std::uint64_t>(static_cast<double>(x)) >> 52) - 1022;
+}
+
 std::uint64_t mantissa(float channel, int exponent) {
-  return static_cast<std::uint64_t>(
-      std::nearbyint(std::ldexp(static_cast<double>(channel), kFluxBits - exponent)));
+  const auto scale =
+      std::bit_cast<double>(static_cast<std::uint64_t>(kFluxBits - exponent + 1023) << 52);
+  return static_cast<std::uint64_t>(std::nearbyint(channel * scale));
 }
 
 std::uint32_t to_grid(float x, int bits) {
@@ -26,8 +32,7 @@ std::uint32_t to_grid(float x, int bits) {
 std::uint64_t pack_flux(Rgb flux) {
   const float largest = max_component(flux);
   if (!(largest > 0)) return 0;
-  int exponent = 0;
-  std::frexp(largest, &exponent);
+  int exponent = exponent_of(largest);
   if (mantissa(largest, exponent) == kMantissaEnd && exponent < 128) ++exponent;
   const auto channel = [&](float c) { return std::min(mantissa(c, exponent), kMantissaEnd - 1); };
   return channel(flux.r) | channel(flux.g) << kFluxBits | channel(flux.b) << (2 * kFluxBits) |

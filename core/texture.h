@@ -1,6 +1,13 @@
 // Colour that may vary over a surface: a constant, or an image or pattern looked up by uv.
+//
+// Texture coordinates follow Mitsuba: v = 0 is the image's top row. OBJ files count v from the
+// bottom, so their loader turns v into 1 - v (Mitsuba's flipTexCoords, on by default).
 #pragma once
 
+#include <memory>
+
+#include "core/affine.h"
+#include "core/image.h"
 #include "core/rgb.h"
 #include "core/vec.h"
 
@@ -31,5 +38,19 @@ class Color {
   Rgb factor_;
   const Texture* texture_ = nullptr;
 };
+
+enum class TextureFilter { nearest, bilinear };
+enum class TextureWrap { repeat, mirror, clamp };  // outside the unit square
+
+struct BitmapConfig {
+  Affine to_uv{};  // applied to (u, v, 1) before the look-up; the third component is dropped
+  TextureFilter filter = TextureFilter::bilinear;
+  TextureWrap wrap = TextureWrap::repeat;
+};
+/// `image` (linear light, at least one pixel) over the unit square.
+std::unique_ptr<Texture> make_bitmap_texture(Image image, const BitmapConfig& config);
+
+/// Four squares per unit square: `color0` where u and v are in the same half.
+std::unique_ptr<Texture> make_checkerboard_texture(Rgb color0, Rgb color1, const Affine& to_uv);
 
 }  // namespace octolux

@@ -39,9 +39,12 @@ struct Scene {
   std::uint64_t hash = 0;             // of all files read and of -D values
   std::vector<std::string> warnings;  // what was ignored or assumed while loading
 
-  std::unique_ptr<RayCaster> caster;  // built by complete()
-  bool any_pass_through = false;      // some BSDF passes light straight on
-  bool any_specular = false;          // some BSDF has a specular lobe, so caustics are possible
+  // Built by complete():
+  std::unique_ptr<RayCaster> caster;
+  Bounds bounds;
+  double total_area = 0;          // of all shapes [m^2]
+  bool any_pass_through = false;  // some BSDF passes light straight on
+  bool any_specular = false;      // some BSDF has a specular lobe, so caustics are possible
 
   const Bsdf& bsdf(std::uint32_t shape) const { return *bsdfs[shapes[shape].bsdf]; }
 

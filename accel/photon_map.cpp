@@ -1,0 +1,198 @@
+// Building a PhotonMap and looking photons up in it.
+//
+// k nearest by selection instead of a heap: candidates are appended while they are closer than the
+// limit; when the list is full, nth_element cuts it to the k best and the limit shrinks to the last
+// of them. That costs O(1) per candidate. Ties are decided by the photon's index in the map.
+#include "accel/photon_map.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+#include "accel/photon_filter.h"
+#include "core/check.h"
+#include "core/parallel.h"
+
+namespace octolux {
+namespace {
+
+constexpr std::int64_t kChunk = 16384;
+constexpr int kSelectionSteps = 6;
+
+bool is_usable(const Photon& p) {
+  return is_finite(p.position) && is_finite(p.wi) && is_finite(p.normal) && is_finite(p.flux) &&
+         p.flux.r >= 0 && p.flux.g >= 0 && p.flux.b >= 0;
+}
+
+/// The usable photons in their given order, for the tree to sort. Payloads are packed before they
+/// are put into the tree's order, because they are half as long then.
+struct Usable {
+  std::vector<PhotonTree::Item> items;
+  std::vector<PhotonPayload> payloads;
+
+  explicit Usable(std::span<const Photon> photons) {
+    const auto count = static_cast<std::int64_t>(photons.size());
+    std::vector<std::size_t> start(static_cast<std::size_t>((count + kChunk - 1) / kChunk) + 1, 0);
+    parallel_for_chunks(count, kChunk, [&](std::int64_t c, std::int64_t begin, std::int64_t end) {
+      start[c + 1] = static_cast<std::size_t>(
+          std::count_if(photons.begin() + begin, photons.begin() + end, is_usable));
+    });
+    for (std::size_t c = 1; c < start.size(); ++c) start[c] += start[c - 1];
+    items.resize(start.back());
+    payloads.resize(start.back());
+    parallel_for_chunks(count, kChunk, [&](std::int64_t c, std::int64_t begin, std::int64_t end) {
+      std::size_t next = start[c];
+      for (std::int64_t i = begin; i < end; ++i) {
+        if (!is_usable(photons[i])) continue;
+        payloads[next] = pack(photons[i]);
+        items[next] = {photons[i].position, static_cast<std::uint32_t>(next)};
+        ++next;
+      }
+    });
+  }
+};
+
+/// Squared distances of a block's photons, in the squashed metric.
+struct BlockDistances {
+  alignas(64) float distance2[PhotonTree::kBlockSize];
+
+  BlockDistances(const PhotonTree::Block& block, const PhotonQuery& query, float squash) {
+    const Vec3 p = query.position;
+    const Vec3 n = query.normal;
+    for (std::uint32_t i = 0; i < PhotonTree::kBlockSize; ++i) {
+      const float dx = block.x[i] - p.x;
+      const float dy = block.y[i] - p.y;
+      const float dz = block.z[i] - p.z;
+      const float along = dx * n.x + dy * n.y + dz * n.z;
+      distance2[i] = dx * dx + dy * dy + dz * dz + squash * (along * along);
+    }
+  }
+};
+
+float squash_factor(const PhotonQuery& query) {
+  OCTOLUX_CHECK(query.squash >= 1);
+  return query.squash * query.squash - 1;
+}
+
+std::size_t count_below(const Neighbour* items, std::size_t count, float limit) {
+  std::size_t below = 0;
+  for (std::size_t i = 0; i < count; ++i) below += items[i].distance2 < limit ? 1 : 0;
+  return below;
+}
+
+float largest_distance2(const Neighbour* items, std::size_t count) {
+  std::uint32_t bits = 0;  // floats that are not negative compare as their bits do
+  for (std::size_t i = 0; i < count; ++i) {
+    bits = std::max(bits, std::bit_cast<std::uint32_t>(items[i].distance2));
+  }
+  return std::bit_cast<float>(bits);
+}
+
+/// Moves the items below `limit` to the front, without a branch.
+void keep_below(Neighbour* items, std::size_t count, float limit) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Neighbour item = items[i];
+    items[kept] = item;
+    kept += item.distance2 < limit ? 1 : 0;
+  }
+}
+
+/// Moves the k best of `count` > k candidates to the front. Returns a limit they are all below, and
+/// no photon that is among the k best of all is at or above it.
+float keep_best(Neighbour* items, std::size_t k, std::size_t count) {
+  float low = 0, high = std::nextafter(largest_distance2(items, count), kInfinity);
+  std::size_t below_low = 0, below_high = count;
+  for (int i = 0; i < kSelectionSteps && below_high > k; ++i) {
+    const float part =
+        (static_cast<float>(k - below_low) + 0.5f) / static_cast<float>(below_high - below_low);
+    const float middle = low + (high - low) * std::min(part, 0.99f);
+    const std::size_t below = count_below(items, count, middle);
+    (below < k ? low : high) = middle;
+    (below < k ? below_low : below_high) = below;
+  }
+  keep_below(items, count, high);
+  if (below_high > k) {
+    std::nth_element(items, items + k - 1, items + below_high);
+    high = std::nextafter(items[k - 1].distance2, kInfinity);
+  }
+  return high;
+}
+
+}  // namespace
+
+PhotonMap::PhotonMap(std::vector<Photon> photons) {
+  OCTOLUX_CHECK(photons.size() < (std::uint64_t{1} << 32));
+  Usable usable(photons);
+  rejected_ = photons.size() - usable.items.size();
+  photons = {};
+  tree_ = PhotonTree(usable.items);
+  payloads_.resize(usable.items.size());
+  const auto count = static_cast<std::int64_t>(usable.items.size());
+  parallel_for_chunks(count, kChunk, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      payloads_[i] = usable.payloads[usable.items[i].index];
+    }
+  });
+}
+
+std::size_t PhotonMap::memory() const {
+  return sizeof(*this) + tree_.memory() + payloads_.capacity() * sizeof(PhotonPayload);
+}
+
+std::span<const Neighbour> PhotonMap::nearest(const PhotonQuery& query, std::size_t k,
+                                              NeighbourBuffer& buffer) const {
+  k = std::min(k, size());
+  if (k == 0) return {};
+  const std::size_t full = k + k / 2 + PhotonTree::kBlockSize;
+  if (buffer.items.size() < full + PhotonTree::kBlockSize) {
+    buffer.items.resize(full + PhotonTree::kBlockSize);
+  }
+  Neighbour* items = buffer.items.data();
+  const float squash = squash_factor(query);
+  PhotonFilter counts(query);
+  PhotonTreeWalk walk(tree_, query.position);
+  float limit = query.max_radius * query.max_radius;
+  std::size_t count = 0;
+  for (;;) {
+    const std::uint32_t b = walk.next<PhotonTreeWalk::Order::nearest_first>(limit);
+    if (b == PhotonTreeWalk::kEnd) break;
+    const BlockDistances block(tree_.block(b), query, squash);
+    for (std::uint32_t lane = 0; lane < PhotonTree::kBlockSize; ++lane) {
+      const std::uint32_t photon = b * PhotonTree::kBlockSize + lane;
+      if (!(block.distance2[lane] < limit) || !counts(payloads_[photon])) continue;
+      items[count++] = {block.distance2[lane], photon};
+    }
+    if (count >= full) {
+      limit = keep_best(items, k, count);
+      count = k;
+    }
+  }
+  if (count > k) keep_best(items, k, count);
+  count = std::min(count, k);
+  if (count > 0) std::iter_swap(items + count - 1, std::max_element(items, items + count));
+  return {items, count};
+}
+
+std::span<const Neighbour> PhotonMap::within(const PhotonQuery& query,
+                                             NeighbourBuffer& buffer) const {
+  const float squash = squash_factor(query);
+  const float limit = query.max_radius * query.max_radius;
+  PhotonFilter counts(query);
+  PhotonTreeWalk walk(tree_, query.position);
+  buffer.items.clear();
+  for (;;) {
+    const std::uint32_t b = walk.next<PhotonTreeWalk::Order::left_to_right>(limit);
+    if (b == PhotonTreeWalk::kEnd) break;
+    const BlockDistances block(tree_.block(b), query, squash);
+    for (std::uint32_t lane = 0; lane < PhotonTree::kBlockSize; ++lane) {
+      const std::uint32_t photon = b * PhotonTree::kBlockSize + lane;
+      if (!(block.distance2[lane] < limit) || !counts(payloads_[photon])) continue;
+      buffer.items.push_back({block.distance2[lane], photon});
+    }
+  }
+  return buffer.items;
+}
+
+}  // namespace octolux

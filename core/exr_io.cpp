@@ -1,0 +1,182 @@
+// EXR files through OpenEXR's frame buffer interface (image_io.h). The sole user of OpenEXR.
+//
+// A file is made in memory and written in one piece (file_io.h), because OpenEXR keeps quiet about
+// a disk that fills up while it finishes a file. Pixels survive bit for bit: 32-bit floats, ZIP.
+#include <ImfChannelList.h>
+#include <ImfChromaticities.h>
+#include <ImfDoubleAttribute.h>
+#include <ImfFloatAttribute.h>
+#include <ImfFrameBuffer.h>
+#include <ImfInputFile.h>
+#include <ImfIntAttribute.h>
+#include <ImfOutputFile.h>
+#include <ImfStandardAttributes.h>
+#include <ImfStdIO.h>
+#include <ImfStringAttribute.h>
+#include <ImfTestFile.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+
+#include "core/check.h"
+#include "core/error.h"
+#include "core/file_io.h"
+#include "core/image_io.h"
+
+namespace octolux {
+namespace {
+
+/// More pixels than this are a broken header, not a picture.
+constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;
+
+std::string full_name(const Layer& layer, const std::string& channel) {
+  return layer.name.empty() ? channel : layer.name + "." + channel;
+}
+
+Imf::Header make_header(const ExrFile& file) {
+  Imf::Header header(file.width, file.height);
+  header.compression() = Imf::ZIP_COMPRESSION;
+  Imf::addChromaticities(header, Imf::Chromaticities());  // OpenEXR's default is Rec.709
+  for (const auto& [name, text] : file.attributes.text) {
+    header.insert(name, Imf::StringAttribute(text));
+  }
+  for (const auto& [name, number] : file.attributes.number) {
+    header.insert(name, Imf::DoubleAttribute(number));
+  }
+  return header;
+}
+
+/// The plane as OpenEXR wants it described: `origin` is the data window's corner, which the address
+/// of pixel (0, 0) must make up for.
+Imf::Slice slice_of(const float* plane, int width, Imath::V2i origin = {0, 0}) {
+  const auto row = sizeof(float) * static_cast<std::size_t>(width);
+  const std::int64_t shift = std::int64_t{origin.y} * static_cast<std::int64_t>(row) +
+                             std::int64_t{origin.x} * static_cast<std::int64_t>(sizeof(float));
+  const auto address = reinterpret_cast<std::intptr_t>(plane) - shift;
+  return {Imf::FLOAT, reinterpret_cast<char*>(address), sizeof(float), row};
+}
+
+std::string encode(const ExrFile& file) {
+  Imf::Header header = make_header(file);
+  Imf::FrameBuffer buffer;
+  const auto pixels = static_cast<std::size_t>(file.width) * static_cast<std::size_t>(file.height);
+  for (const Layer& layer : file.layers) {
+    OCTOLUX_CHECK(layer.channels.size() == layer.planes.size());
+    for (std::size_t c = 0; c < layer.channels.size(); ++c) {
+      OCTOLUX_CHECK(layer.planes[c].size() == pixels);
+      const std::string name = full_name(layer, layer.channels[c]);
+      OCTOLUX_CHECK(!header.channels().findChannel(name));
+      header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+      buffer.insert(name, slice_of(layer.planes[c].data(), file.width));
+    }
+  }
+  Imf::StdOSStream stream;
+  {
+    Imf::OutputFile output(stream, header);
+    output.setFrameBuffer(buffer);
+    output.writePixels(file.height);
+  }
+  return stream.str();
+}
+
+ExrAttributes read_attributes(const Imf::Header& header) {
+  ExrAttributes attributes;
+  for (auto i = header.begin(); i != header.end(); ++i) {
+    const Imf::Attribute& a = i.attribute();
+    if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a)) {
+      attributes.text[i.name()] = text->value();
+    } else if (const auto* number = dynamic_cast<const Imf::DoubleAttribute*>(&a)) {
+      attributes.number[i.name()] = number->value();
+    } else if (const auto* real = dynamic_cast<const Imf::FloatAttribute*>(&a)) {
+      attributes.number[i.name()] = static_cast<double>(real->value());
+    } else if (const auto* integer = dynamic_cast<const Imf::IntAttribute*>(&a)) {
+      attributes.number[i.name()] = integer->value();
+    }
+  }
+  return attributes;
+}
+
+/// Files list channels by the alphabet; people say R G B A. Other names stay in order.
+int channel_rank(const std::string& channel) {
+  const auto place = std::string("RGBA").find(channel);
+  return channel.size() == 1 && place != std::string::npos ? static_cast<int>(place) : 4;
+}
+
+/// The layers of the file, with names only, each in order R G B A.
+std::vector<Layer> layers_of(const std::string& path, const Imf::ChannelList& channels) {
+  std::map<std::string, Layer> layers;
+  for (auto i = channels.begin(); i != channels.end(); ++i) {
+    if (i.channel().xSampling != 1 || i.channel().ySampling != 1) {
+      throw Error(path + ": channel '" + i.name() +
+                  "' is subsampled; expected channels of full resolution");
+    }
+    const std::string name = i.name();
+    const auto dot = name.rfind('.');
+    Layer& layer = layers[dot == std::string::npos ? "" : name.substr(0, dot)];
+    layer.channels.push_back(dot == std::string::npos ? name : name.substr(dot + 1));
+  }
+  std::vector<Layer> result;
+  for (auto& [name, layer] : layers) {
+    layer.name = name;
+    std::stable_sort(
+        layer.channels.begin(), layer.channels.end(),
+        [](const auto& a, const auto& b) { return channel_rank(a) < channel_rank(b); });
+    result.push_back(std::move(layer));
+  }
+  return result;
+}
+
+ExrFile decode(const std::string& path) {
+  Imf::InputFile input(path.c_str());
+  const Imath::Box2i window = input.header().dataWindow();
+  const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
+  const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
+  if (width < 1 || height < 1 || width > kMaxPixels / height) {
+    throw Error(path + ": its header says " + std::to_string(width) + "x" + std::to_string(height) +
+                " pixels; expected at least 1x1 and at most 2^28");
+  }
+  ExrFile file;
+  file.width = static_cast<int>(width);
+  file.height = static_cast<int>(height);
+  file.attributes = read_attributes(input.header());
+  file.layers = layers_of(path, input.header().channels());
+  if (file.layers.empty()) throw Error(path + ": has no channels; expected R, G, B or Y");
+  Imf::FrameBuffer buffer;
+  for (Layer& layer : file.layers) {
+    for (const std::string& channel : layer.channels) {
+      layer.planes.emplace_back(static_cast<std::size_t>(width * height));
+      buffer.insert(full_name(layer, channel),
+                    slice_of(layer.planes.back().data(), file.width, window.min));
+    }
+  }
+  input.setFrameBuffer(buffer);
+  input.readPixels(window.min.y, window.max.y);
+  return file;
+}
+
+}  // namespace
+
+void write_exr(const std::string& path, const ExrFile& file) {
+  OCTOLUX_CHECK(file.width > 0 && file.height > 0);
+  check_writable(path);
+  write_file(path, encode(file));
+}
+
+ExrFile read_exr(const std::string& path) {
+  std::error_code code;
+  if (!std::filesystem::exists(path, code)) throw Error(path + ": there is no such file");
+  bool tiled = false, deep = false, multi_part = false;
+  if (!Imf::isOpenExrFile(path.c_str(), tiled, deep, multi_part) || deep) {
+    throw Error(path + ": is not a flat OpenEXR file; expected scan lines or tiles");
+  }
+  try {
+    return decode(path);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& e) {
+    throw Error(path + ": cannot be read; expected a whole OpenEXR file: " + e.what());
+  }
+}
+
+}  // namespace octolux

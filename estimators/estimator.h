@@ -1,0 +1,68 @@
+// Density estimation: from the photons around a point to the radiance leaving it.
+//
+// A kernel is one .cpp, one test and one line in list.def; it makes one virtual call per look-up
+// and none per photon. Bandwidth: h = shrink * min(r, max_radius), where r is the distance of the
+// (n+1)th nearest photon, which is itself left out. Given r, the n nearer photons are uniform in
+// its disc, so the estimate is unbiased on a uniform plane at any n and any shrink in (0, 1]; where
+// r > max_radius it is the plain estimate at that radius (the two cases together are exactly
+// unbiased for Poisson photons).
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "accel/photon_map.h"
+#include "accel/ray_caster.h"
+#include "core/scattering.h"
+
+namespace octolux {
+
+struct EstimatorConfig {
+  std::string kernel = "cone";
+  int neighbours = 50;   // n; the bandwidth is the distance of the next one
+  float cone_slope = 1;  // kappa >= 1 of the cone filter (Jensen)
+};
+
+/// Where radiance is wanted.
+struct GatherPoint {
+  const Scattering& at;               // point, BSDF and wo
+  int max_segments = 255;             // photons with longer paths do not count
+  const RayCaster* caster = nullptr;  // for kernels that look at the geometry around the point
+  float turn = 0;                     // random in [0, 1), independent of the photons
+};
+
+/// How wide a look-up may be: the same for all look-ups in one map of one pass.
+struct Bandwidth {
+  float max_radius = kInfinity;  // [m]
+  float shrink = 1;              // s_k of the pass, in (0, 1]
+};
+
+/// What a look-up found.
+struct Estimate {
+  Rgb radiance;         // [W m^-2 sr^-1] leaving at.point towards at.wo by the smooth lobes
+  float bandwidth = 0;  // h [m]
+  float area = 0;       // [m^2] the sum of flux was divided by (weights included)
+  int count = 0;        // photons that took part
+};
+
+/// Immutable, thread-safe.
+class Estimator {
+ public:
+  virtual ~Estimator() = default;
+  virtual Estimate estimate(const GatherPoint& at, const PhotonMap& map,
+                            const Bandwidth& bandwidth) const = 0;
+};
+
+/// The query every kernel starts from: facing normal, which sides count, path length.
+PhotonQuery photon_query(const GatherPoint& at, const Bandwidth& bandwidth);
+
+/// Names in list.def, in that order.
+std::vector<std::string> kernel_names();
+
+/// Throws Error for an unknown kernel or values out of range.
+std::unique_ptr<Estimator> make_estimator(const EstimatorConfig& config);
+
+}  // namespace octolux

@@ -1,0 +1,47 @@
+// Estimators whose kernel depends on distance alone: L = 1/h^2 * sum k(d^2/h^2) f(wo, wi) flux.
+// The kernel is a type with `float k(float s) const`, s = d^2/h^2 in [0, 1), pi * integral_0^1 k ds
+// = 1; it is inlined into one loop.
+#pragma once
+
+#include <memory>
+
+#include "estimators/disc_search.h"
+
+namespace octolux {
+
+template <class Kernel>
+class Radial final : public Estimator {
+ public:
+  Radial(int neighbours, Kernel kernel) : neighbours_(neighbours), kernel_(kernel) {}
+
+  Estimate estimate(const GatherPoint& at, const PhotonMap& map,
+                    const Bandwidth& bandwidth) const override {
+    thread_local NeighbourBuffer buffer;
+    const Disc disc = find_disc(at, map, bandwidth, neighbours_, buffer);
+    if (disc.empty()) return {};
+    return sum(at, map, disc);
+  }
+
+ private:
+  /// One sum of flux where f is constant, one call of f per photon elsewhere.
+  Estimate sum(const GatherPoint& at, const PhotonMap& map, const Disc& disc) const {
+    const float inv_h2 = 1 / disc.h2;
+    const std::optional<Rgb> lambertian = at.at.lambertian();
+    Rgb total(0);
+    int count = 0;
+    for (const Neighbour& near : disc.photons) {
+      const float s = near.distance2 * inv_h2;
+      if (!(s < 1)) continue;
+      const Rgb flux = map.flux(near.photon) * kernel_.k(s);
+      total += lambertian ? flux : flux * at.at.f(map.wi(near.photon), Lobes::smooth);
+      ++count;
+    }
+    const Rgb scale = lambertian ? *lambertian * kInvPi : Rgb(1);
+    return {total * scale * inv_h2, std::sqrt(disc.h2), kPi * disc.h2, count};
+  }
+
+  int neighbours_;
+  Kernel kernel_;
+};
+
+}  // namespace octolux

@@ -1,0 +1,37 @@
+// The ranges of the settings.
+#include "renderer/config.h"
+
+#include <string>
+
+#include "core/error.h"
+
+namespace octolux {
+
+namespace {
+
+void require(bool ok, const std::string& message) {
+  if (!ok) throw Error(message);
+}
+
+}  // namespace
+
+void check(const RenderConfig& config) {
+  require(config.photons.global >= 1 || !config.eye.gather || config.integrator == Integrator::path,
+          "photons.global must be at least 1");
+  require(config.photons.global >= 0, "photons.global must be 0 or more");
+  require(config.photons.caustic >= 0, "photons.caustic must be 0 or more");
+  require(config.photons.global_radius > 0, "photons.global_radius must be above 0");
+  require(config.photons.caustic_radius > 0, "photons.caustic_radius must be above 0");
+  require(config.photons.alpha > 0 && config.photons.alpha <= 1, "photons.alpha must be in (0, 1]");
+  require(config.eye.gather_rays >= 1, "eye.gather_rays must be at least 1");
+  require(config.eye.light_samples >= 1, "eye.light_samples must be at least 1");
+  require(config.eye.samples_per_pass >= 1, "eye.samples_per_pass must be at least 1");
+  require(config.eye.retrace >= 0, "eye.retrace must be 0 or more");
+  require(config.stop.passes >= 0, "stop.passes must be 0 or more");
+  require(config.stop.samples >= 0, "stop.samples must be 0 or more");
+  require(config.stop.seconds >= 0, "stop.seconds must be 0 or more");
+  require(config.stop.error >= 0, "stop.error must be 0 or more");
+  make_estimator(config.estimator);
+}
+
+}  // namespace octolux

@@ -1,0 +1,73 @@
+// Every setting of a render: declared once here with default and unit, listed once in visit(),
+// which serves `--set`, and the provenance written into the EXR.
+#pragma once
+
+#include <cstdint>
+
+#include "estimators/estimator.h"
+
+namespace octolux {
+
+enum class Integrator { photon, path };
+
+struct PhotonConfig {
+  std::int64_t global = 200'000;   // paths emitted per pass for the global map
+  std::int64_t caustic = 200'000;  // the same for the caustic map; 0: none
+  double global_radius = 10;       // look-up limit, in units of the mean n-photon radius
+  double caustic_radius = 2;       // the same for the caustic map
+  double alpha = 2.0 / 3;          // Knaus & Zwicker's: how fast the bandwidth shrinks; 1: never
+};
+
+struct EyeConfig {
+  bool gather = true;        // false: show the global map directly
+  int gather_rays = 4;       // per eye sample
+  int light_samples = 4;     // per eye sample at most; one light each
+  int samples_per_pass = 1;  // eye samples per pixel and pass
+  double retrace = 2;        // gather rays shorter than this many bandwidths go on
+};
+
+/// The first that is reached stops the render, at the end of a pass. 0: not set.
+struct StopConfig {
+  int passes = 0;
+  int samples = 0;  // eye samples per pixel
+  double seconds = 0;
+  double error = 0;  // mean over pixels of the relative standard error
+};
+
+struct RenderConfig {
+  Integrator integrator = Integrator::photon;
+  std::uint64_t seed = 1;
+  PhotonConfig photons;
+  EstimatorConfig estimator;
+  EyeConfig eye;
+  StopConfig stop;
+};
+
+/// Calls field("photons.global", config.photons.global) and so on for every setting that has a
+/// plain value; works for const and non-const configs.
+template <class Config, class Field>
+void visit(Config& config, Field&& field) {
+  field("seed", config.seed);
+  field("photons.global", config.photons.global);
+  field("photons.caustic", config.photons.caustic);
+  field("photons.global_radius", config.photons.global_radius);
+  field("photons.caustic_radius", config.photons.caustic_radius);
+  field("photons.alpha", config.photons.alpha);
+  field("estimator.kernel", config.estimator.kernel);
+  field("estimator.neighbours", config.estimator.neighbours);
+  field("estimator.cone_slope", config.estimator.cone_slope);
+  field("eye.gather", config.eye.gather);
+  field("eye.gather_rays", config.eye.gather_rays);
+  field("eye.light_samples", config.eye.light_samples);
+  field("eye.samples_per_pass", config.eye.samples_per_pass);
+  field("eye.retrace", config.eye.retrace);
+  field("stop.passes", config.stop.passes);
+  field("stop.samples", config.stop.samples);
+  field("stop.seconds", config.stop.seconds);
+  field("stop.error", config.stop.error);
+}
+
+/// Throws Error if a value is out of its range.
+void check(const RenderConfig& config);
+
+}  // namespace octolux

@@ -1,0 +1,64 @@
+// direct_light.h.
+#include "renderer/direct_light.h"
+
+#include "core/sampling.h"
+
+namespace octolux {
+
+namespace {
+
+/// One light sample's contribution, not yet divided by the number of samples.
+Rgb sample_one_light(Tracer& tracer, const LightSampler::Choice& choice, const Scattering& at,
+                     const DirectStrategy& strategy, int max_crossings) {
+  const Vec2 u = tracer.rng.uniform2();
+  const std::optional<LightSample> light = choice.light->sample(at.point().position, u);
+  if (!light) return Rgb(0);
+  const Rgb scattered = at.f_cos(light->wi, strategy.lobes) * light->radiance;
+  if (is_black(scattered)) return Rgb(0);
+  const float pdf_w = choice.pmf * light->pdf_w;
+  const float share = light->delta
+                          ? 1.0f
+                          : power_heuristic(static_cast<float>(strategy.light_samples), pdf_w,
+                                            static_cast<float>(strategy.bsdf_samples),
+                                            at.pdf_w(light->wi, strategy.sampled));
+  const Rgb value = scattered * (share / pdf_w);
+  return is_black(value) ? value : value * tracer.visibility(at.point(), *light, max_crossings);
+}
+
+float bsdf_share(const Arrival& arrival, float light_pdf_w) {
+  if (arrival.light_samples == 0) return 1;
+  return power_heuristic(static_cast<float>(arrival.bsdf_samples), arrival.pdf_w,
+                         static_cast<float>(arrival.light_samples), light_pdf_w);
+}
+
+}  // namespace
+
+Rgb sample_lights(Tracer& tracer, const LightSampler& lights, const Scattering& at,
+                  const DirectStrategy& strategy, int max_crossings) {
+  if (lights.empty() || max_crossings < 0) return Rgb(0);
+  Rgb total(0);
+  const float n = static_cast<float>(strategy.light_samples);
+  for (int i = 0; i < strategy.light_samples; ++i) {
+    const float u = std::min(kOneMinusEpsilon, (static_cast<float>(i) + tracer.rng.uniform()) / n);
+    total += sample_one_light(tracer, lights.sample(u), at, strategy, max_crossings);
+  }
+  return total / n;
+}
+
+Rgb emitted(const LightSampler& lights, const SurfaceHit& hit, Vec3 wo, const Arrival& arrival) {
+  if (!hit.light) return Rgb(0);
+  const Rgb radiance = hit.light->radiance(hit.point, wo);
+  if (is_black(radiance) || arrival.light_samples == 0) return radiance;
+  const float pdf_w =
+      lights.pmf_of_shape(hit.point.shape) * hit.light->pdf_w(arrival.from, hit.point);
+  return radiance * bsdf_share(arrival, pdf_w);
+}
+
+Rgb environment(const Scene& scene, const LightSampler& lights, Vec3 wi, const Arrival& arrival) {
+  if (!scene.environment) return Rgb(0);
+  const Rgb radiance = scene.environment->radiance(wi);
+  if (arrival.light_samples == 0) return radiance;
+  return radiance * bsdf_share(arrival, lights.pmf_of_environment() * scene.environment->pdf_w(wi));
+}
+
+}  // namespace octolux

@@ -1,0 +1,37 @@
+// Light that comes straight from a light source: next-event estimation and BSDF sampling, combined
+// by the power heuristic (Veach 1997, 9.2).
+#pragma once
+
+#include "renderer/light_sampler.h"
+#include "renderer/tracer.h"
+
+namespace octolux {
+
+/// The two techniques that share the direct light at a point, and how often each is used there.
+struct DirectStrategy {
+  Lobes lobes = Lobes::non_delta;  // whose light next-event estimation brings
+  Lobes sampled = Lobes::all;      // the set BSDF sampling draws from
+  int light_samples = 1;
+  int bsdf_samples = 1;
+};
+
+/// Next-event estimation at `at`: radiance towards at.wo(), the share of it that the heuristic
+/// gives this technique. A connection may cross at most `max_crossings` panes and masks.
+Rgb sample_lights(Tracer& tracer, const LightSampler& lights, const Scattering& at,
+                  const DirectStrategy& strategy, int max_crossings);
+
+/// How a path arrived where it is, as far as the heuristic must know.
+struct Arrival {
+  Vec3 from;        // the point that scattered last
+  float pdf_w = 0;  // [sr^-1] of the scattered direction
+  int bsdf_samples = 1;
+  int light_samples = 0;  // 0: no next-event estimation there; this technique has all
+};
+
+/// Radiance that `hit` emits back along the path, the share of it that BSDF sampling has.
+Rgb emitted(const LightSampler& lights, const SurfaceHit& hit, Vec3 wo, const Arrival& arrival);
+
+/// The same for the environment in direction `wi`.
+Rgb environment(const Scene& scene, const LightSampler& lights, Vec3 wi, const Arrival& arrival);
+
+}  // namespace octolux

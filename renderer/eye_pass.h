@@ -1,0 +1,15 @@
+// Eye paths of photon mapping: specular chains are followed, and at every surface with smooth lobes
+// the final gather is asked for what leaves it.
+#pragma once
+
+#include "renderer/film.h"
+#include "renderer/final_gather.h"
+#include "renderer/pixels.h"
+
+namespace octolux {
+
+/// One eye path along `ray`.
+EyeSample trace_eye_path(Tracer& tracer, const LightSampler& lights, const FinalGather& gather,
+                         Ray ray);
+
+}  // namespace octolux

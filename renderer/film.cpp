@@ -1,0 +1,117 @@
+// Sums over passes, and the pictures made from them.
+#include "renderer/film.h"
+
+#include <cmath>
+
+#include "core/check.h"
+
+namespace octolux {
+
+Film::Film(int width, int height)
+    : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * height) {}
+
+void Film::add(const PassImage& pass) {
+  OCTOLUX_CHECK(pass.size() == pixels_.size());
+  ++passes_;
+  for (std::size_t i = 0; i < pixels_.size(); ++i) {
+    const EyeSample& sample = pass[i];
+    const Rgb radiance = sample.radiance();
+    if (!is_finite(radiance)) {
+      if (non_finite_++ == 0)
+        first_non_finite_ = {static_cast<int>(i % width_), static_cast<int>(i / width_),
+                             passes_ - 1};
+      continue;
+    }
+    Pixel& pixel = pixels_[i];
+    pixel.direct += sample.direct;
+    pixel.caustic += sample.caustic;
+    pixel.indirect += sample.indirect;
+    pixel.albedo += sample.albedo;
+    pixel.normal += sample.normal;
+    pixel.depth += sample.depth;
+    for (int c = 0; c < 3; ++c) {
+      pixel.sum[c] += radiance[c];
+      pixel.square[c] += static_cast<double>(radiance[c]) * radiance[c];
+    }
+    const double y = luminance(radiance);
+    pixel.luminance_square += y * y;
+  }
+}
+
+Image Film::radiance() const {
+  Image image(width_, height_);
+  for (std::size_t i = 0; i < pixels_.size(); ++i) {
+    const double* sum = pixels_[i].sum;
+    image.pixels[i] =
+        Rgb(static_cast<float>(sum[0] / passes_), static_cast<float>(sum[1] / passes_),
+            static_cast<float>(sum[2] / passes_));
+  }
+  return image;
+}
+
+Image Film::mean_of(Rgb Pixel::*field) const {
+  Image image(width_, height_);
+  const float scale = 1.0f / static_cast<float>(passes_);
+  for (std::size_t i = 0; i < pixels_.size(); ++i) image.pixels[i] = pixels_[i].*field * scale;
+  return image;
+}
+
+namespace {
+
+/// Variance of the mean of `n` values from their sum and sum of squares.
+double variance_of_mean(double sum, double square, int n) {
+  if (n < 2) return 0;
+  const double mean = sum / n;
+  return std::max(0.0, square / n - mean * mean) / (n - 1);
+}
+
+}  // namespace
+
+Image Film::variance() const {
+  Image image(width_, height_);
+  for (std::size_t i = 0; i < pixels_.size(); ++i) {
+    float v[3];
+    for (int c = 0; c < 3; ++c) {
+      v[c] = static_cast<float>(variance_of_mean(pixels_[i].sum[c], pixels_[i].square[c], passes_));
+    }
+    image.pixels[i] = Rgb(v[0], v[1], v[2]);
+  }
+  return image;
+}
+
+Image Film::normal() const {
+  Image image(width_, height_);
+  for (std::size_t i = 0; i < pixels_.size(); ++i) {
+    const float size = length(pixels_[i].normal);
+    const Vec3 n = size > 0 ? pixels_[i].normal / size : Vec3{};
+    image.pixels[i] = Rgb(n.x, n.y, n.z);
+  }
+  return image;
+}
+
+std::vector<float> Film::depth() const {
+  std::vector<float> depth(pixels_.size());
+  for (std::size_t i = 0; i < pixels_.size(); ++i) {
+    depth[i] = pixels_[i].depth / static_cast<float>(passes_);
+  }
+  return depth;
+}
+
+double Film::relative_error() const {
+  const auto y_sum = [](const Pixel& p) {
+    return 0.2126 * p.sum[0] + 0.7152 * p.sum[1] + 0.0722 * p.sum[2];
+  };
+  double total = 0;
+  for (const Pixel& pixel : pixels_) total += y_sum(pixel);
+  const double floor = 0.01 * total / (static_cast<double>(pixels_.size()) * passes_);
+  if (passes_ < 2 || !(floor > 0)) return passes_ < 2 ? 1 : 0;
+  double error = 0;
+  for (const Pixel& pixel : pixels_) {
+    const double sum = y_sum(pixel);
+    error +=
+        std::sqrt(variance_of_mean(sum, pixel.luminance_square, passes_)) / (sum / passes_ + floor);
+  }
+  return error / static_cast<double>(pixels_.size());
+}
+
+}  // namespace octolux

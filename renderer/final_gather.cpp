@@ -1,0 +1,124 @@
+// final_gather.h.
+#include "renderer/final_gather.h"
+
+#include <cmath>
+
+#include "renderer/roulette.h"
+
+namespace octolux {
+
+namespace {
+
+constexpr int kUnlimited = 1 << 20;  // segments
+constexpr int kMaxRetraces = 16;
+
+/// Van der Corput's radical inverse in base 2: with i/n a Hammersley set.
+float radical_inverse(std::uint32_t i) {
+  std::uint32_t bits = 0;
+  for (int b = 0; b < 24; ++b) bits |= ((i >> b) & 1u) << (23 - b);
+  return static_cast<float>(bits) * 0x1p-24f;
+}
+
+float wrap(float u) { return std::min(kOneMinusEpsilon, u < 1 ? u : u - 1); }
+
+}  // namespace
+
+FinalGather::FinalGather(const Scene& scene, const LightSampler& lights, const PhotonMaps& maps,
+                         const RenderConfig& config)
+    : scene_(scene),
+      lights_(lights),
+      maps_(maps),
+      config_(config),
+      light_samples_(
+          std::min<int>(config.eye.light_samples, static_cast<int>(scene.lights.size()))) {}
+
+int FinalGather::remaining(int segments) const {
+  return scene_.max_depth < 0 ? kUnlimited : scene_.max_depth - segments;
+}
+
+GatherPoint FinalGather::gather_point(Tracer& tracer, const Scattering& at, int segments) const {
+  return {at, std::min(255, remaining(segments)), scene_.caster.get(), tracer.rng.uniform()};
+}
+
+SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at, int segments) const {
+  if (!config_.eye.gather) {
+    return {Rgb(0), Rgb(0), maps_.global.radiance(gather_point(tracer, at, segments))};
+  }
+  return radiance(tracer, at, {segments, config_.eye.gather_rays, -1, 0});
+}
+
+SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
+                                    const Level& level) const {
+  SplitRadiance out;
+  if (remaining(level.segments) < 1) return out;
+  const DirectStrategy strategy{Lobes::smooth, Lobes::smooth, light_samples_, level.rays};
+  out.direct = sample_lights(tracer, lights_, at, strategy, remaining(level.segments) - 1);
+
+  const GatherPoint point = gather_point(tracer, at, level.segments);
+  if (maps_.caustics_mapped) out.caustic = maps_.caustic.radiance(point);
+
+  Level next = level;
+  if (next.read_distance < 0) {
+    next.read_distance = static_cast<float>(config_.eye.retrace) *
+                         maps_.global.bandwidth(point, config_.estimator.neighbours);
+  }
+  const Vec2 shift = tracer.rng.uniform2();
+  const float n = static_cast<float>(level.rays);
+  for (int i = 0; i < level.rays; ++i) {
+    const Vec2 u{wrap(static_cast<float>(i) / n + shift.x),
+                 wrap(radical_inverse(static_cast<std::uint32_t>(i)) + shift.y)};
+    out.indirect += gather_ray(tracer, at, next, u) / n;
+  }
+  return out;
+}
+
+Rgb FinalGather::gather_ray(Tracer& tracer, const Scattering& at, const Level& level,
+                            Vec2 u) const {
+  const float u_lobe = tracer.rng.uniform();
+  const std::optional<BsdfSample> sample = at.sample(u_lobe, u, Lobes::smooth);
+  if (!sample || is_black(sample->weight)) return Rgb(0);
+  const Arrival arrival{at.point().position, sample->pdf_w, level.rays, light_samples_};
+  return sample->weight * follow(tracer, at.spawn(sample->wi), level, arrival);
+}
+
+/// Radiance arriving along `ray`, through specular lobes S*, from the first smooth lobes met, and
+/// the share of directly hit emitters that belongs to BSDF sampling.
+Rgb FinalGather::follow(Tracer& tracer, Ray ray, const Level& level, Arrival arrival) const {
+  Rgb total(0), beta(1);
+  int segments = level.segments;
+  int bounces = 0;
+  float distance = 0;
+  bool emitters = true;  // would light hit now be counted nowhere else?
+  while (remaining(segments) > 0) {
+    const std::optional<SurfaceHit> hit = tracer.next(ray, beta, segments);
+    if (remaining(segments) < 0) break;
+    if (!hit) {
+      if (emitters) total += beta * environment(scene_, lights_, ray.direction, arrival);
+      break;
+    }
+    const Vec3 wo = -ray.direction;
+    if (emitters) total += beta * emitted(lights_, *hit, wo, arrival);
+    distance += hit->distance;
+    const Scattering at(hit->point, *hit->bsdf, wo, Carried::radiance);
+    if (hit->bsdf->has(Lobes::smooth)) {
+      const float threshold = level.read_distance * (0.5f + tracer.rng.uniform());
+      if (distance < threshold && level.retraces < kMaxRetraces) {
+        const Level next{segments, 1, level.read_distance, level.retraces + 1};
+        total += beta * radiance(tracer, at, next).total();
+      } else {
+        total += beta * maps_.global.radiance(gather_point(tracer, at, segments));
+      }
+    }
+    if (!hit->bsdf->has(Lobes::specular)) break;
+    const std::optional<BsdfSample> sample = sample_lobes(tracer.rng, at, Lobes::specular);
+    if (!sample) break;
+    beta *= sample->weight;
+    if (++bounces > kSafeBounces && !survives(tracer.rng, beta, 1)) break;
+    ray = at.spawn(sample->wi);
+    emitters = !maps_.caustics_mapped;
+    arrival = {};
+  }
+  return total;
+}
+
+}  // namespace octolux

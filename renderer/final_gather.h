@@ -1,0 +1,55 @@
+// Radiance leaving a point through its smooth lobes (DESIGN section 1): direct light by next-event
+// estimation, caustics from their map, everything else gathered over rays that end in the global
+// map. The map is read one bounce away, where its blur is averaged out; a gather ray that ends
+// close by, where blur and leaks would show, is not read but goes on one more bounce.
+#pragma once
+
+#include "estimators/radiance_map.h"
+#include "renderer/config.h"
+#include "renderer/direct_light.h"
+
+namespace octolux {
+
+/// The maps of one pass.
+struct PhotonMaps {
+  RadianceMap global;
+  RadianceMap caustic;
+  bool caustics_mapped = false;  // is L S+ D read from the caustic map (or traced by gather rays)?
+};
+
+/// Radiance split by path class.
+struct SplitRadiance {
+  Rgb direct, caustic, indirect;
+  Rgb total() const { return direct + caustic + indirect; }
+};
+
+/// Thread-safe; refers to what it is given.
+class FinalGather {
+ public:
+  FinalGather(const Scene& scene, const LightSampler& lights, const PhotonMaps& maps,
+              const RenderConfig& config);
+
+  /// Smooth-lobe radiance leaving `at`, which the eye path reached over `segments` segments.
+  SplitRadiance radiance(Tracer& tracer, const Scattering& at, int segments) const;
+
+ private:
+  struct Level {
+    int segments;         // from the eye to this point
+    int rays;             // gather rays to send
+    float read_distance;  // [m] shorter gather rays go on; negative: not known yet
+    int retraces;         // how often this path has gone on
+  };
+  SplitRadiance radiance(Tracer& tracer, const Scattering& at, const Level& level) const;
+  Rgb gather_ray(Tracer& tracer, const Scattering& at, const Level& level, Vec2 u) const;
+  Rgb follow(Tracer& tracer, Ray ray, const Level& level, Arrival arrival) const;
+  GatherPoint gather_point(Tracer& tracer, const Scattering& at, int segments) const;
+  int remaining(int segments) const;
+
+  const Scene& scene_;
+  const LightSampler& lights_;
+  const PhotonMaps& maps_;
+  const RenderConfig& config_;
+  int light_samples_;
+};
+
+}  // namespace octolux

@@ -1,0 +1,113 @@
+// photon_pass.h: the walk, and its cut into chunks that do not depend on threads.
+#include "renderer/photon_pass.h"
+
+#include <cmath>
+
+#include "core/parallel.h"
+#include "renderer/tracer.h"
+
+namespace octolux {
+
+namespace {
+
+constexpr std::int64_t kChunk = 4096;  // paths
+
+/// A photon in flight.
+struct Flight {
+  Ray ray;
+  Rgb flux;          // [W]
+  int segments = 0;  // behind it
+};
+
+/// Starts path `index`; the light is chosen by power, stratified over the pass, so that all photons
+/// carry about the same flux and every lamp gets its share.
+Flight emit(const LightSampler& lights, Rng& rng, std::int64_t index, std::int64_t count) {
+  const double u = (static_cast<double>(index) + rng.uniform()) / static_cast<double>(count);
+  const LightSampler::Choice choice =
+      lights.sample_for_emission(std::min(kOneMinusEpsilon, static_cast<float>(u)));
+  const Vec2 u_position = rng.uniform2();
+  const Vec2 u_direction = rng.uniform2();
+  const EmittedPhoton emitted = choice.light->emit(u_position, u_direction);
+  return {emitted.ray, emitted.flux * (1 / (choice.pmf * static_cast<float>(count))), 0};
+}
+
+/// Scatters the photon at `at` by one of `lobes`, or ends it: Russian roulette by the ratio of new
+/// to old flux, so that survivors keep their flux and the lights' watts do not matter.
+bool scatter(Flight& flight, const Scattering& at, Lobes lobes, Rng& rng) {
+  const float u_lobe = rng.uniform();
+  const Vec2 u = rng.uniform2();
+  const float u_survive = rng.uniform();
+  const std::optional<BsdfSample> sample = at.sample(u_lobe, u, lobes);
+  if (!sample) return false;
+  const Rgb flux = flight.flux * sample->weight;
+  const float survival = std::min(1.0f, max_component(flux) / max_component(flight.flux));
+  if (!(u_survive < survival)) return false;
+  flight.flux = flux / survival;
+  flight.ray = at.spawn(sample->wi);
+  return true;
+}
+
+void trace_photon(Tracer& tracer, Flight flight, PhotonKind kind, int max_segments,
+                  std::vector<Photon>& photons) {
+  const Lobes followed = kind == PhotonKind::global ? Lobes::all : Lobes::specular;
+  for (int bounces = 0; flight.segments < max_segments; ++bounces) {
+    const std::optional<SurfaceHit> hit = tracer.next(flight.ray, flight.flux, flight.segments);
+    if (!hit || flight.segments > max_segments) return;
+    const Scattering at(hit->point, *hit->bsdf, -flight.ray.direction, Carried::flux);
+    if (hit->bsdf->has(Lobes::smooth) && (kind == PhotonKind::global || bounces > 0)) {
+      photons.push_back(
+          {hit->point.position, at.wo(), at.facing_normal(), flight.flux, flight.segments});
+    }
+    if (!hit->bsdf->has(followed) || !scatter(flight, at, followed, tracer.rng)) return;
+  }
+}
+
+}  // namespace
+
+PhotonPass trace_photons(const Scene& scene, const LightSampler& lights, PhotonKind kind,
+                         std::int64_t count, PassKey key) {
+  PhotonPass result;
+  if (count == 0 || lights.empty()) return result;
+  if (kind == PhotonKind::caustic && !scene.any_specular) return result;
+
+  const Stream stream = kind == PhotonKind::global ? Stream::global_photon : Stream::caustic_photon;
+  // A photon is seen over at least one more segment.
+  const int max_segments = scene.max_depth < 0 ? 1 << 20 : scene.max_depth - 1;
+  const auto chunks = static_cast<std::size_t>((count + kChunk - 1) / kChunk);
+  std::vector<PhotonPass> parts(chunks);
+  parallel_for_chunks(count, kChunk, [&](std::int64_t chunk, std::int64_t begin, std::int64_t end) {
+    PhotonPass& part = parts[static_cast<std::size_t>(chunk)];
+    for (std::int64_t index = begin; index < end; ++index) {
+      Tracer tracer(scene, Rng(key.seed, stream, key.pass, static_cast<std::uint64_t>(index)));
+      const Flight flight = emit(lights, tracer.rng, index, count);
+      trace_photon(tracer, flight, kind, max_segments, part.photons);
+      part.rays += tracer.rays();
+    }
+  });
+
+  std::size_t total = 0;
+  for (const PhotonPass& part : parts) total += part.photons.size();
+  result.photons.reserve(total);
+  for (const PhotonPass& part : parts) {
+    result.photons.insert(result.photons.end(), part.photons.begin(), part.photons.end());
+    result.rays += part.rays;
+  }
+  return result;
+}
+
+Bandwidth look_up_bandwidth(const Scene& scene, std::size_t photons, int neighbours, double radius,
+                            double alpha, std::uint64_t pass) {
+  Bandwidth bandwidth;
+  const double per_area = std::max(1.0, static_cast<double>(photons)) / scene.total_area;
+  bandwidth.max_radius =
+      static_cast<float>(std::min(radius * std::sqrt(neighbours / (std::numbers::pi * per_area)),
+                                  2.0 * static_cast<double>(scene.bounds.radius())));
+  double shrink2 = 1;
+  for (std::uint64_t k = 1; k <= pass; ++k) {
+    shrink2 *= (static_cast<double>(k) + alpha) / (static_cast<double>(k) + 1);
+  }
+  bandwidth.shrink = static_cast<float>(std::sqrt(shrink2));
+  return bandwidth;
+}
+
+}  // namespace octolux

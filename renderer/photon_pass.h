@@ -1,0 +1,41 @@
+// Light paths: photons leave the lights, scatter, and are stored where they meet smooth lobes.
+// One walk serves both maps; they differ in what they follow and keep (Heckbert's notation):
+//   global   L (S|D)* D   follows every lobe, keeps a photon at every D
+//   caustic  L S+ D       follows specular lobes only, keeps a photon where such a chain ends
+#pragma once
+
+#include <cstdint>
+
+#include "estimators/radiance_map.h"
+#include "renderer/config.h"
+#include "renderer/light_sampler.h"
+#include "renderer/scene.h"
+
+namespace octolux {
+
+enum class PhotonKind { global, caustic };
+
+/// What one photon pass did.
+struct PhotonPass {
+  std::vector<Photon> photons;
+  std::int64_t rays = 0;
+};
+
+/// What makes a pass repeatable: its photons are those of (seed, pass, photon index), on any number
+/// of threads.
+struct PassKey {
+  std::uint64_t seed = 1;
+  std::uint64_t pass = 0;
+};
+
+/// Emits `count` paths [flux already divided by it].
+PhotonPass trace_photons(const Scene& scene, const LightSampler& lights, PhotonKind kind,
+                         std::int64_t count, PassKey key);
+
+/// Bandwidth of the look-ups in a map of `photons` photons: a limit of `radius` times the mean
+/// radius of `neighbours` photons on the scene's surfaces, and the pass's shrink factor s with
+/// s_1 = 1, s^2_{k+1} / s^2_k = (k + alpha) / (k + 1) (Knaus & Zwicker 2011, eq. 10).
+Bandwidth look_up_bandwidth(const Scene& scene, std::size_t photons, int neighbours, double radius,
+                            double alpha, std::uint64_t pass);
+
+}  // namespace octolux

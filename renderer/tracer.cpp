@@ -1,0 +1,64 @@
+// tracer.h: closest hits, pass-through, shadow rays.
+#include "renderer/tracer.h"
+
+namespace octolux {
+
+std::optional<SurfaceHit> Tracer::next(Ray ray, Rgb& weight, int& segments) {
+  float distance = 0;
+  while (true) {
+    ++segments;
+    count(ray, false);
+    const std::optional<RayHit> hit = scene_.caster->closest(ray);
+    if (!hit) return std::nullopt;
+    distance += hit->t;
+    const Bsdf& bsdf = scene_.bsdf(hit->shape);
+    SurfaceHit surface{scene_.caster->surface(*hit), &bsdf, scene_.area_light_of_shape[hit->shape],
+                       distance};
+    if (!bsdf.passes_light()) return surface;
+
+    const Scattering at(surface.point, bsdf, -ray.direction, Carried::radiance);
+    const Rgb passed = at.pass_through();
+    const float probability = std::min(1.0f, max_component(passed));
+    if (!(rng.uniform() < probability)) {
+      weight *= 1 / (1 - probability);
+      return surface;
+    }
+    weight *= passed / probability;
+    ray = {at.spawn(ray.direction).origin, ray.direction};
+  }
+}
+
+namespace {
+
+/// A ray from `from` that ends (t = 1) at the light, both ends moved off their surfaces.
+Ray connect(const SurfacePoint& from, const LightSample& light) {
+  const Vec3 origin = offset_origin(from.position, from.ng, from.error, light.wi);
+  if (light.infinite) return {origin, light.wi};
+  const Vec3 target = offset_origin(light.at.position, light.at.ng, light.at.error, -light.wi);
+  return {origin, target - origin, 0, 1};
+}
+
+}  // namespace
+
+Rgb Tracer::visibility(const SurfacePoint& from, const LightSample& light, int max_crossings) {
+  Ray ray = connect(from, light);
+  count(ray, true);
+  if (!scene_.any_pass_through) return Rgb(scene_.caster->occluded(ray) ? 0.0f : 1.0f);
+
+  Rgb share(1);
+  for (int crossings = 0;; ++crossings) {
+    const std::optional<RayHit> hit = scene_.caster->closest(ray);
+    if (!hit) return share;
+    const Bsdf& bsdf = scene_.bsdf(hit->shape);
+    if (!bsdf.passes_light() || crossings == max_crossings) return Rgb(0);
+    const SurfacePoint point = scene_.caster->surface(*hit);
+    const Scattering at(point, bsdf, -light.wi, Carried::radiance);
+    share *= at.pass_through();
+    if (is_black(share)) return share;
+    const Ray rest = at.spawn(light.wi);
+    ray = light.infinite ? rest : Ray{rest.origin, ray.origin + ray.direction - rest.origin, 0, 1};
+    count(ray, true);
+  }
+}
+
+}  // namespace octolux

@@ -1,0 +1,50 @@
+// Photon mapping and the path tracer share no transport code: where both agree within their noise,
+// both are right. Per pixel (z-test with the passes' variances) and in the mean.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "tests/renderer/renders.h"
+
+namespace octolux::test {
+namespace {
+
+struct Case {
+  const char* scene;
+  int width, height;
+  int path_passes, photon_passes;
+  std::int64_t photons;
+};
+
+class AgreementSlow : public testing::TestWithParam<Case> {};
+
+TEST_P(AgreementSlow, PerPixelAndInTheMean) {
+  const Case& c = GetParam();
+  const auto scene = shipped_scene(c.scene);
+  resize_film(*scene, c.width, c.height);
+  const Film path = render_film(*scene, path_config(c.path_passes));
+  const Film photon = render_film(*scene, photon_config(c.photon_passes, c.photons));
+  const MeanRadiance a = mean_radiance(path), b = mean_radiance(photon);
+  const PixelTest test = pixel_z_test(path, photon, 0.01);
+  std::printf("  %s: mean ratio %.4f +- %.4f, chi2/dof %.3f, %d of %zu beyond Sidak\n", c.scene,
+              b.mean / a.mean, a.standard_error / a.mean, test.chi2_over_dof(), test.failed,
+              test.z.size());
+  EXPECT_NEAR(b.mean / a.mean, 1, 0.005);
+  // Mitsuba's acceptance: 99.75 % of the pixels within Sidak's limit at 0.01.
+  EXPECT_LE(test.failed, static_cast<int>(0.0025 * static_cast<double>(test.z.size())));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, AgreementSlow,
+    testing::Values(Case{"cornell/cornell.xml", 48, 48, 4096, 128, 100'000},
+                    Case{"glass-sphere/glass-sphere.xml", 48, 48, 8192, 128, 100'000},
+                    Case{"two-rooms/two-rooms.xml", 48, 32, 16384, 128, 100'000}),
+    [](const testing::TestParamInfo<Case>& param) {
+      std::string name = param.param.scene;
+      name = name.substr(0, name.find('/'));
+      name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
+      return name;
+    });
+
+}  // namespace
+}  // namespace octolux::test

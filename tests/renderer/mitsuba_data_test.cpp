@@ -1,0 +1,72 @@
+// Mitsuba's own regression scenes (not part of this repository: skipped, saying so, where absent),
+// held by Mitsuba's own rule: a z-test per pixel against the reference with the variance that comes
+// with it, Sidak's correction at 0.01, 99.75 % of the pixels.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "core/image_io.h"
+#include "tests/renderer/renders.h"
+
+namespace octolux::test {
+namespace {
+
+const std::string kRoot =
+    std::string(OCTOLUX_SOURCE_DIR) + "/../shared/scenes/mitsuba-data/tests/scenes/";
+
+struct Case {
+  const char* scene;
+  const char* reference;  // without _rgb.exr
+};
+
+class MitsubaDataSlow : public testing::TestWithParam<Case> {};
+
+TEST_P(MitsubaDataSlow, PathPassesItsAcceptanceRule) {
+  const Case& c = GetParam();
+  if (!std::filesystem::exists(kRoot))
+    GTEST_SKIP() << "no mitsuba-data scenes beside the repository";
+  const auto scene = load_scene(kRoot + c.scene, {});
+  const Image reference = read_exr(kRoot + c.reference + "_rgb.exr").image();
+  const Image variance = read_exr(kRoot + c.reference + "_rgb_var.exr").image();
+  ASSERT_EQ(reference.width, scene->film.crop_width);
+  const auto pixels = static_cast<int>(reference.pixels.size());
+  const int samples = 2'000'000 / pixels;
+  const Image image = render_film(*scene, path_config(samples)).radiance();
+
+  const double limit = sidak(0.01, pixels);
+  int passed = 0;
+  for (int i = 0; i < pixels; ++i) {
+    for (int ch = 0; ch < 3; ++ch) {
+      const double var = std::max(1e-4f, variance.pixels[i][ch]);
+      const double z = (image.pixels[i][ch] - reference.pixels[i][ch]) * std::sqrt(samples / var);
+      passed += z_test_p(z) > limit;
+    }
+  }
+  std::printf("  %s: %.4f of the pixels pass (0.9975 needed)\n", c.scene, passed / (3.0 * pixels));
+  EXPECT_GE(passed / (3.0 * pixels), 0.9975);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, MitsubaDataSlow,
+    testing::Values(
+        Case{"bsdf_spheres/test_arealight_path.xml", "bsdf_spheres/refs/test_arealight_ref"},
+        Case{"bsdf_spheres/test_constant_path.xml", "bsdf_spheres/refs/test_constant_ref"},
+        Case{"bsdf_spheres/test_pointlight_path.xml", "bsdf_spheres/refs/test_pointlight_ref"},
+        Case{"bsdf_spheres/test_envmap_path.xml", "bsdf_spheres/refs/test_envmap_ref"},
+        Case{"bsdf_spheres/test_roughdielectric_path.xml",
+             "bsdf_spheres/refs/test_roughdielectric_ref"},
+        Case{"bsdf_spheres/test_roughplastic_linear_path.xml",
+             "bsdf_spheres/refs/test_roughplastic_linear_ref"},
+        Case{"bsdf_spheres/test_roughplastic_nonlinear_path.xml",
+             "bsdf_spheres/refs/test_roughplastic_nonlinear_ref"},
+        Case{"bsdf_spheres/test_textured_diffuse_path.xml",
+             "bsdf_spheres/refs/test_textured_diffuse_ref"},
+        Case{"infinite_mirrors/scene_path.xml", "infinite_mirrors/refs/scene_ref"}),
+    [](const testing::TestParamInfo<Case>& param) {
+      std::string name = std::filesystem::path(param.param.reference).filename().string();
+      name.erase(std::remove(name.begin(), name.end(), '_'), name.end());
+      return name;
+    });
+
+}  // namespace
+}  // namespace octolux::test
