@@ -22,7 +22,7 @@ namespace octolux {
 
 struct EstimatorConfig {
   std::string kernel = "cone";
-  int neighbours = 50;   // n; the bandwidth is the distance of the next one
+  int neighbours = 20;   // n; the bandwidth is the distance of the next one
   float cone_slope = 1;  // kappa >= 1 of the cone filter (Jensen)
 };
 
