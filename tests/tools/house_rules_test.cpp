@@ -83,7 +83,7 @@ struct Owner {
 const std::vector<Owner> kOwners = {
     {"embree", {"accel/ray_caster.cpp"}},
     {"Imf", {"core/exr_io.cpp"}},
-    {"OpenImageIO", {"core/image_io.cpp"}},
+    {"stb", {"core/stb_io.cpp"}},
     {"OpenColorIO", {"core/display.cpp"}},
     {"tbb/", {"core/parallel.cpp", "accel/"}},
     {"pugixml", {"renderer/"}},
