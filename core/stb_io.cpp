@@ -114,8 +114,8 @@ Image decode_numbers(const Encoded& file, float one,
                      Number* (*load)(const stbi_io_callbacks*, void*, int*, int*, int*, int)) {
   constexpr int kRgb = 3;  // stb_image spreads grey and drops alpha
   const stbi_io_callbacks callbacks = Source::callbacks();
-  // Behind the end stb_image reads zeros, and its HDR reader waits for ever for a run of more
-  // pixels than that. A line break ends a header, and begins too long a run.
+  // Behind the end stb_image reads zeros, and runs of no pixels would keep its HDR reader for ever.
+  // Line breaks end its header, and are runs of ten.
   Source source(file.bytes, file.is_hdr());
   int width = 0, height = 0, channels = 0;
   const std::unique_ptr<Number, void (*)(void*)> numbers(

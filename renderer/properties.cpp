@@ -160,7 +160,8 @@ void Properties::finish() const {
     const std::string* type = node_.attribute("type");
     const std::string owner = type ? *type : node_.tag;
     if (e.name.empty()) {
-      octolux::fail(e.node->where, "a " + e.node->object().tag + " cannot stand inside " + node_.tag + " '" + owner + "'");
+      octolux::fail(e.node->where, "a " + e.node->object().tag + " cannot stand inside " +
+                                       node_.tag + " '" + owner + "'");
     }
     octolux::fail(e.node->where,
                   unknown_name(owner + " parameter", *e.node->attribute("name"), legal));

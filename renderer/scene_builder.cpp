@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/bsdf_makers.h"
 #include "core/file_io.h"
 #include "core/hash.h"
 #include "renderer/xml_objects.h"
