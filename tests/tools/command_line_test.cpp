@@ -242,22 +242,21 @@ bool has_said(const TemporaryFolder& folder, const std::string& word) {
 }
 
 /// Told to stop after its first pass, a render that has ten minutes ends at once, with a whole
-/// picture: Ctrl-C and the polite `kill` alike.
-TEST_F(CommandLine, SignalsFinishThePassAndWrite) {
-  for (const int signal : {SIGINT, SIGTERM}) {
-    std::filesystem::remove(folder_ / "room.exr");
-    std::filesystem::remove(folder_ / "room.png");
-    const Program program(folder_, {"render", "room.xml", "--photons", "500", "--time", "600"});
-    EXPECT_TRUE(has_said(folder_, "pass 1"));
-    ::kill(program.process(), signal);
-    const Outcome outcome = program.wait();
-    EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
-    EXPECT_NE(outcome.err.find("finishing this pass"), std::string::npos) << outcome.err;
-    ASSERT_TRUE(exists("room.exr"));
-    EXPECT_EQ(read_exr(folder_ / "room.exr").width, 24);
-    EXPECT_TRUE(exists("room.png"));
-  }
+/// picture.
+void expect_stop_by(int signal, const TemporaryFolder& folder) {
+  const Program program(folder, {"render", "room.xml", "--photons", "500", "--time", "600"});
+  EXPECT_TRUE(has_said(folder, "pass 1"));
+  ::kill(program.process(), signal);
+  const Outcome outcome = program.wait();
+  EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
+  EXPECT_NE(outcome.err.find("finishing this pass"), std::string::npos) << outcome.err;
+  EXPECT_EQ(read_exr(folder / "room.exr").width, 24);
+  EXPECT_TRUE(std::filesystem::exists(folder / "room.png"));
 }
+
+TEST_F(CommandLine, CtrlCFinishesThePassAndWrites) { expect_stop_by(SIGINT, folder_); }
+
+TEST_F(CommandLine, KillFinishesThePassAndWrites) { expect_stop_by(SIGTERM, folder_); }
 
 TEST_F(CommandLine, InfoTellsWhatWasLoaded) {
   const Outcome outcome = run({"info", "room.xml"});
