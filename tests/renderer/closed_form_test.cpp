@@ -182,7 +182,7 @@ TEST(PhotonFlux, MapsOfAFloorLitByALampHoldItsIrradiance) {
             horizontal(0.7, 0.4, 1.5, false, diffuse(0) + emitter("5"))));
   const double expected = 0.6 * 5 * rectangle_form_factor(0.7, 0.4, 1.5);
   for (const std::string kernel : {"disc", "cone"}) {
-    RenderConfig config = photon_config(64, 50'000);
+    RenderConfig config = photon_config(32, 50'000);
     config.eye.gather = false;
     config.estimator.kernel = kernel;
     Running passes;
@@ -192,7 +192,7 @@ TEST(PhotonFlux, MapsOfAFloorLitByALampHoldItsIrradiance) {
       passes.add(sum - passes.mean() * static_cast<double>(passes.count()));
     });
     render(*loaded, config, watch);
-    // Bandwidth h = sqrt(50 / (pi * density)) is about 0.1: curvature of E over it adds h^2/8 of
+    // Bandwidth h = sqrt(20 / (pi * density)) is about 0.06: curvature of E over it adds h^2/8 of
     // the Laplacian, below 0.3 %.
     EXPECT_NEAR(passes.mean(), expected, 4 * passes.standard_error() + 0.003 * expected) << kernel;
   }
