@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "core/vec.h"
@@ -18,22 +19,24 @@ inline constexpr int kSides = 8;
 using Lanes = std::array<float, kSides>;
 
 /// Points of the tangent plane, one look-up's photons. The arrays are padded to whole groups of
-/// eight with the origin.
+/// eight with the origin, which is within every box that contains it.
 class PlanePoints {
  public:
   void resize(int count);
   int size() const { return count_; }
   int padded_size() const { return static_cast<int>(x_.size()); }
   Vec2 operator[](int i) const { return {x_[i], y_[i]}; }
-  void set(int i, Vec2 p) { x_[i] = p.x, y_[i] = p.y; }
+  /// `inside`: within the disc that is estimated (all points shape the box).
+  void set(int i, Vec2 p, bool inside) { x_[i] = p.x, y_[i] = p.y, inside_[i] = inside ? 1 : 0; }
   const float* x() const { return x_.data(); }
   const float* y() const { return y_.data(); }
-  /// Turns all points by the angle whose cosine and sine are given, clockwise.
+  const float* inside() const { return inside_.data(); }  // 1 or 0
+  /// Turns the axes by the angle whose cosine and sine are given.
   void turn(Vec2 axis);
 
  private:
   int count_ = 0;
-  std::vector<float> x_, y_;
+  std::vector<float> x_, y_, inside_;
 };
 
 /// Unit vector along the larger principal axis of the points; (1, 0) if there is none.
@@ -55,11 +58,19 @@ struct Octants {
   Lanes a{}, b{}, sum{}, difference{};  // greatest a, b, a + b and a - b
 };
 
-/// Octant of a point.
-inline int octant(Vec2 p) {
-  const bool left = p.x < 0, below = p.y < 0, steep = std::abs(p.y) > std::abs(p.x);
-  const int quadrant = below ? (left ? 2 : 3) : (left ? 1 : 0);
-  return 2 * quadrant + static_cast<int>(steep != (left != below));
+/// Octant of a point, 0 to 7.
+inline int octant(float x, float y) {
+  const int left = x < 0, below = y<0, steep = std::abs(y)> std::abs(x);
+  return 4 * below + 2 * (left ^ below) + (steep ^ left ^ below);
+}
+/// A point's supports in its octant.
+struct Folded {
+  float a, b, sum, difference;
+};
+inline Folded fold(float x, float y) {
+  const float u = std::abs(x), v = std::abs(y);
+  const float a = u > v ? u : v, b = u > v ? v : u;
+  return {a, b, a + b, a - b};
 }
 
 /// The OctoBox of the points of each octant and the origin.

@@ -1,12 +1,11 @@
 // Areas of OctoBoxes by Green's theorem: the boundary of box and disc is chords and arcs, and seen
 // from the origin a chord at distance d from t1 to t2 bounds d (t2 - t1) / 2, an arc of angle g
 // bounds r^2 g / 2. Written as loops over eight lanes without branches.
-#include "estimators/octobox.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/constants.h"
+#include "estimators/octobox.h"
 
 namespace octolux {
 namespace {
@@ -33,6 +32,8 @@ inline float angle_of(float t, float d) {
   const float a = q + q * s * p;
   return std::copysign(size < d ? a : kPi / 2 - a, t);
 }
+
+inline float greater(float a, float b) { return a > b ? a : b; }
 
 /// The part of a side inside the disc: the side's line is at distance d, and runs from t = from to
 /// t = to along it.
@@ -69,8 +70,10 @@ void PlanePoints::resize(int count) {
   const std::size_t padded = static_cast<std::size_t>((count + kSides - 1) / kSides) * kSides;
   x_.resize(padded);
   y_.resize(padded);
+  inside_.resize(padded);
   std::fill(x_.begin() + count, x_.end(), 0.0f);
   std::fill(y_.begin() + count, y_.end(), 0.0f);
+  std::fill(inside_.begin() + count, inside_.end(), 0.0f);
 }
 
 void PlanePoints::turn(Vec2 axis) {
@@ -110,42 +113,35 @@ Vec2 principal_axis(const PlanePoints& points) {
   return difference >= 0 ? Vec2{large, small} : Vec2{std::abs(small), std::copysign(large, twice)};
 }
 
-namespace {
-
-/// Support distances of the points, starting from `lowest` along x, (x+y), y, (y-x) and back.
-Lanes support(const PlanePoints& points, Vec2 start) {
-  const float sum = start.x + start.y, difference = start.y - start.x;
-  std::array<Lanes, kSides> d;
-  const Lanes first{start.x, sum, start.y, difference, -start.x, -sum, -start.y, -difference};
-  for (int k = 0; k < kSides; ++k) d[k].fill(first[k]);
+Lanes octobox_with_origin(const PlanePoints& points) {
+  std::array<Lanes, kSides> most{};
   for (int i = 0; i < points.padded_size(); i += kSides) {
     for (int j = 0; j < kSides; ++j) {
       const float x = points.x()[i + j];
       const float y = points.y()[i + j];
-      const float p = x + y, m = y - x;
-      d[0][j] = d[0][j] > x ? d[0][j] : x;
-      d[1][j] = d[1][j] > p ? d[1][j] : p;
-      d[2][j] = d[2][j] > y ? d[2][j] : y;
-      d[3][j] = d[3][j] > m ? d[3][j] : m;
-      d[4][j] = d[4][j] > -x ? d[4][j] : -x;
-      d[5][j] = d[5][j] > -p ? d[5][j] : -p;
-      d[6][j] = d[6][j] > -y ? d[6][j] : -y;
-      d[7][j] = d[7][j] > -m ? d[7][j] : -m;
+      const float sides[kSides] = {x, x + y, y, y - x, -x, -(x + y), -y, -(y - x)};
+      for (int k = 0; k < kSides; ++k) most[k][j] = greater(most[k][j], sides[k]);
     }
   }
   Lanes box;
   for (int k = 0; k < kSides; ++k) {
-    const float most = *std::max_element(d[k].begin(), d[k].end());
-    box[k] = k % 2 == 0 ? most : most * kSqrtHalf;
+    const float support = *std::max_element(most[k].begin(), most[k].end());
+    box[k] = k % 2 == 0 ? support : support * kSqrtHalf;
   }
   return box;
 }
 
-}  // namespace
-
-Lanes octobox_with_origin(const PlanePoints& points) { return support(points, {0, 0}); }
-
-Lanes octobox(const PlanePoints& points) { return support(points, points[0]); }
+Lanes octobox(const PlanePoints& points) {
+  Lanes box;
+  box.fill(-kInfinity);
+  for (int i = 0; i < points.size(); ++i) {
+    const float x = points.x()[i], y = points.y()[i];
+    const float p = (x + y) * kSqrtHalf, m = (y - x) * kSqrtHalf;
+    const float sides[kSides] = {x, p, y, m, -x, -p, -y, -m};
+    for (int k = 0; k < kSides; ++k) box[k] = greater(box[k], sides[k]);
+  }
+  return box;
+}
 
 float octobox_area(const Lanes& box) {
   const float width = box[0] + box[4], height = box[2] + box[6];
@@ -180,24 +176,20 @@ float octobox_area(const Lanes& box, float radius) {
 }
 
 Octants octant_boxes(const PlanePoints& points) {
-  struct Supports {
-    float v[4] = {0, 0, 0, 0};
-  };
-  std::array<Supports, kSides> most;
+  std::array<std::array<float, 4>, kSides> most{};
   for (int i = 0; i < points.size(); ++i) {
-    const Vec2 p = points[i];
-    const float x = std::abs(p.x), y = std::abs(p.y);
-    const float a = std::max(x, y), b = std::min(x, y);
-    const float s[4] = {a, b, a + b, a - b};
-    Supports& m = most[octant(p)];
-    for (int k = 0; k < 4; ++k) m.v[k] = m.v[k] > s[k] ? m.v[k] : s[k];
+    const float x = points.x()[i], y = points.y()[i];
+    const Folded p = fold(x, y);
+    const float supports[4] = {p.a, p.b, p.sum, p.difference};
+    std::array<float, 4>& m = most[octant(x, y)];
+    for (int k = 0; k < 4; ++k) m[k] = greater(m[k], supports[k]);
   }
   Octants boxes;
   for (int i = 0; i < kSides; ++i) {
-    boxes.a[i] = most[i].v[0];
-    boxes.b[i] = most[i].v[1];
-    boxes.sum[i] = most[i].v[2];
-    boxes.difference[i] = most[i].v[3];
+    boxes.a[i] = most[i][0];
+    boxes.b[i] = most[i][1];
+    boxes.sum[i] = most[i][2];
+    boxes.difference[i] = most[i][3];
   }
   return boxes;
 }
