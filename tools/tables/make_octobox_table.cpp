@@ -55,11 +55,12 @@ Sums simulate(int photons, std::int64_t begin, std::int64_t end) {
   return sums;
 }
 
-/// Runs that bring the standard error to about 1e-4; fewer where the table hardly counts.
+/// Runs that bring the standard error to about 2e-4; fewer at few photons, where the box hardly
+/// counts.
 std::int64_t runs_for(int photons) {
-  const double deviation = 10.0 / photons;  // of one run: an upper bound from 10 photons on
-  return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::pow(deviation / 1.5e-4, 2)), 20000,
-                                  3000000);
+  const double deviation = 5.4 / photons;  // of one run, about
+  const double runs = std::pow(deviation / 2e-4, 2);
+  return std::clamp<std::int64_t>(static_cast<std::int64_t>(runs), 10000, 1000000);
 }
 
 void print_entry(int photons) {
