@@ -60,7 +60,7 @@ void assign(const std::string& source, bool& value, const std::string& text) {
 }
 
 template <class T>
-  requires std::is_floating_point_v<T>
+requires std::is_floating_point_v<T>
 void assign(const std::string& source, T& value, const std::string& text) {
   value = static_cast<T>(parse_number(source, text));
 }
