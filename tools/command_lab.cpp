@@ -85,8 +85,7 @@ LabSettings make_settings(const LabArguments& a) {
   settings.runs = a.runs;
   settings.angle = a.angle.value_or(-1);
   settings.shrink = a.shrink;
-  settings.pattern =
-      a.low_discrepancy ? PhotonPattern::low_discrepancy : PhotonPattern::poisson;
+  settings.pattern = a.low_discrepancy ? PhotonPattern::low_discrepancy : PhotonPattern::poisson;
   settings.seed = a.seed;
   return settings;
 }
@@ -158,8 +157,7 @@ int run_own_photons(const LabArguments& a) {
       for (const int n : a.neighbours) {
         EstimatorConfig config = kernel.config;
         config.neighbours = n;
-        const Estimate e =
-            query.irradiance(*make_estimator(config), map, bandwidth, nullptr, 0.5f);
+        const Estimate e = query.irradiance(*make_estimator(config), map, bandwidth, nullptr, 0.5f);
         text += fmt::format("{},{},{},{:.7g},{:.7g},{:.7g},{:.7g},{:.7g},{}\n", q, kernel.name, n,
                             e.radiance.r, e.radiance.g, e.radiance.b, e.bandwidth, e.area, e.count);
       }

@@ -22,9 +22,9 @@ LabKernel parse_lab_kernel(const std::string& text);
 struct LabSettings {
   std::vector<LabKernel> kernels;
   std::vector<int> neighbours;
-  int runs = 4000;     // look-ups for 50 photons and fewer; in proportion fewer for more
-  double angle = -1;   // [degrees]; < 0: sixteen angles over the whole turn
-  double shrink = 1;   // of the bandwidth
+  int runs = 4000;    // look-ups for 50 photons and fewer; in proportion fewer for more
+  double angle = -1;  // [degrees]; < 0: sixteen angles over the whole turn
+  double shrink = 1;  // of the bandwidth
   PhotonPattern pattern = PhotonPattern::poisson;
   std::uint64_t seed = 1;
 };

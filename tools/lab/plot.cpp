@@ -37,8 +37,8 @@ struct Panel {
 std::vector<Series> series_of(const LabTable& table) {
   std::vector<Series> all;
   for (const LabResult& r : table.results) {
-    const auto found = std::find_if(all.begin(), all.end(),
-                                    [&](const Series& s) { return s.kernel == r.kernel; });
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const Series& s) { return s.kernel == r.kernel; });
     if (found == all.end()) all.push_back({r.kernel, {}});
     (found == all.end() ? all.back() : *found).points.push_back(&r);
   }
@@ -71,9 +71,7 @@ Panel make_panel(const LabTable& table, PlotAxis axis, double left, double top) 
   }
   if (!(high > low)) high = low + 1;
   const auto [bottom, ceiling] = bias_range(table);
-  return {{low, high, left, left + kPanelWidth},
-          {bottom, ceiling, top + kPanelHeight, top},
-          axis};
+  return {{low, high, left, left + kPanelWidth}, {bottom, ceiling, top + kPanelHeight, top}, axis};
 }
 
 std::string text_at(double x, double y, const std::string& anchor, const std::string& text) {
@@ -92,8 +90,8 @@ std::string marker(double x, double y, std::size_t kind, const char* colour) {
     case 0:
       return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" {}/>\n", x, y, fill);
     case 1:
-      return fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"7\" height=\"7\" {}/>\n",
-                         x - 3.5, y - 3.5, fill);
+      return fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"7\" height=\"7\" {}/>\n", x - 3.5,
+                         y - 3.5, fill);
     case 2:
       return fmt::format("<path d=\"M{:.1f} {:.1f}l4.5 8h-9z\" {}/>\n", x, y - 5, fill);
     default:
@@ -122,9 +120,10 @@ std::string axes(const Panel& panel, const std::string& title) {
   }
   svg += text_at((left + right) / 2, bottom + 29, "middle",
                  angle ? "angle of the wall [degrees]" : "photons in the look-up");
-  svg += fmt::format("<text transform=\"translate({:.1f} {:.1f}) rotate(-90)\" "
-                     "text-anchor=\"middle\">bias [%]</text>\n",
-                     left - 42, (top + bottom) / 2);
+  svg += fmt::format(
+      "<text transform=\"translate({:.1f} {:.1f}) rotate(-90)\" "
+      "text-anchor=\"middle\">bias [%]</text>\n",
+      left - 42, (top + bottom) / 2);
   return svg;
 }
 

@@ -14,8 +14,8 @@ std::string to_csv(const std::vector<LabTable>& tables) {
     for (const LabResult& r : table.results) {
       const std::string angle = r.angle < 0 ? "any" : fmt::format("{:g}", r.angle);
       text += fmt::format("{},{},{},{},{},{:.6g},{:.6g},{:.3g},{:.6g},{:.6g},{:.0f}\n", table.title,
-                          r.kernel, r.neighbours, angle, r.runs, r.mean, r.bias(),
-                          r.standard_error, r.deviation, r.rmse(), r.nanoseconds);
+                          r.kernel, r.neighbours, angle, r.runs, r.mean, r.bias(), r.standard_error,
+                          r.deviation, r.rmse(), r.nanoseconds);
     }
   }
   return text;

@@ -163,8 +163,7 @@ void LabWorld::add_wall_photons(double density, double reach, Rng& rng,
       const double along = foot + radius * std::cos(angle), z = radius * std::sin(angle);
       if (along < 0 || along > length || z < 0 || z > kWallHeight) continue;
       Photon photon;
-      photon.position =
-          turned(w.from.x + dx * along / length, w.from.y + dy * along / length, z);
+      photon.position = turned(w.from.x + dx * along / length, w.from.y + dy * along / length, z);
       photon.normal = normalize(turned(-dy, dx, 0));
       photon.wi = photon.normal;
       photon.flux = Rgb(static_cast<float>(1 / density));
