@@ -82,7 +82,7 @@ LabResult summary(const Sums& sums, std::int64_t runs) {
 }
 
 std::vector<LabResult> measure_one(const Experiment& e) {
-  const double share = std::min(1.0, 50.0 / e.neighbours);
+  const double share = 50.0 / e.neighbours;  // noise is about 1 / sqrt(neighbours)
   const auto runs = std::max<std::int64_t>(16, static_cast<std::int64_t>(e.settings.runs * share));
   std::vector<std::vector<Sums>> parts(static_cast<std::size_t>((runs + kChunk - 1) / kChunk));
   parallel_for_chunks(runs, kChunk, [&](std::int64_t c, std::int64_t begin, std::int64_t end) {

@@ -22,7 +22,7 @@ LabKernel parse_lab_kernel(const std::string& text);
 struct LabSettings {
   std::vector<LabKernel> kernels;
   std::vector<int> neighbours;
-  int runs = 4000;    // look-ups for 50 photons and fewer; in proportion fewer for more
+  int runs = 4000;    // look-ups of 50 photons; for the same error, of n photons 50/n times as many
   double angle = -1;  // [degrees]; < 0: sixteen angles over the whole turn
   double shrink = 1;  // of the bandwidth
   PhotonPattern pattern = PhotonPattern::poisson;
