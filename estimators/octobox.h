@@ -58,6 +58,9 @@ struct Octants {
   Lanes a{}, b{}, sum{}, difference{};  // greatest a, b, a + b and a - b
 };
 
+/// Number of points in each octant.
+std::array<int, kSides> octant_counts(const PlanePoints& points);
+
 /// Octant of a point, 0 to 7.
 inline int octant(float x, float y) {
   const int left = x < 0, below = y<0, steep = std::abs(y)> std::abs(x);

@@ -14,6 +14,13 @@ struct FlatKernel {
   float k(float /*s*/) const { return kInvPi; }
 };
 
+/// Values beyond a float's range are its largest, not infinite: powers of photons may span twelve
+/// decades, and areas be tiny.
+inline Rgb in_range(Rgb c) {
+  constexpr float kMost = std::numeric_limits<float>::max();
+  return {std::min(c.r, kMost), std::min(c.g, kMost), std::min(c.b, kMost)};
+}
+
 /// The sum over a disc's photons: one sum of flux where f is constant, one call of f per photon
 /// elsewhere.
 template <class Kernel>
@@ -30,7 +37,7 @@ Estimate radial_sum(const GatherPoint& at, const PhotonMap& map, const Disc& dis
     ++count;
   }
   const Rgb scale = lambertian ? *lambertian * kInvPi : Rgb(1);
-  return {total * scale * inv_h2, std::sqrt(disc.h2), kPi * disc.h2, count};
+  return {in_range(total * scale * inv_h2), std::sqrt(disc.h2), kPi * disc.h2, count};
 }
 
 template <class Kernel>

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "estimators/radial.h"
 
 namespace octolux {
 namespace {
@@ -184,7 +185,7 @@ Estimate LabQuery::irradiance(const Estimator& estimator, const PhotonMap& map,
   at.caster = caster;
   at.turn = turn;
   Estimate estimate = estimator.estimate(at, map, bandwidth);
-  estimate.radiance *= kPi;
+  estimate.radiance = in_range(estimate.radiance * kPi);
   return estimate;
 }
 

@@ -53,6 +53,7 @@ void measure_time(const LabSettings& settings, std::vector<LabResult>& results);
 class LabQuery {
  public:
   LabQuery(Vec3 position, Vec3 normal);
+  /// The estimate with the irradiance [W m^-2] in place of the radiance.
   Estimate irradiance(const Estimator& estimator, const PhotonMap& map, const Bandwidth& bandwidth,
                       const RayCaster* caster, float turn) const;
 
