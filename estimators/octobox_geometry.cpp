@@ -56,6 +56,14 @@ inline Chords chords(Float8 d, Float8 from, Float8 to, float radius) {
   return c;
 }
 
+std::size_t padded_count(int count) {
+  return static_cast<std::size_t>((count + kSides - 1) / kSides) * kSides;
+}
+
+void grow(std::vector<float>& v, int count) {
+  if (v.size() != padded_count(count)) v.resize(padded_count(count));
+}
+
 inline float sum8(Float8 v) {
   return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]));
 }
@@ -64,13 +72,30 @@ inline float sum8(Float8 v) {
 
 void PlanePoints::resize(int count) {
   count_ = count;
-  const std::size_t padded = static_cast<std::size_t>((count + kSides - 1) / kSides) * kSides;
-  x_.resize(padded);
-  y_.resize(padded);
-  inside_.resize(padded);
-  std::fill(x_.begin() + count, x_.end(), 0.0f);
-  std::fill(y_.begin() + count, y_.end(), 0.0f);
-  std::fill(inside_.begin() + count, inside_.end(), 0.0f);
+  for (std::vector<float>* v : {&x_, &y_, &inside_}) grow(*v, count);
+  for (std::size_t i = static_cast<std::size_t>(count); i < x_.size(); ++i) {
+    x_[i] = y_[i] = inside_[i] = 0;
+  }
+}
+
+void PlanePoints::Positions::resize(int count) {
+  for (std::vector<float>* v : {&x, &y, &z, &distance2}) grow(*v, count);
+}
+
+void PlanePoints::project(Positions& positions, int count, Vec3 s, Vec3 t, float inside2) {
+  count_ = count;
+  for (std::vector<float>* v : {&x_, &y_, &inside_}) grow(*v, count);
+  for (std::size_t i = static_cast<std::size_t>(count); i < x_.size(); ++i) {
+    positions.x[i] = positions.y[i] = positions.z[i] = 0;
+    positions.distance2[i] = kInfinity;
+  }
+  for (int i = 0; i < padded_size(); i += kSides) {
+    const Float8 x = load8(&positions.x[i]), y = load8(&positions.y[i]);
+    const Float8 z = load8(&positions.z[i]);
+    store8(&x_[i], x * s.x + y * s.y + z * s.z);
+    store8(&y_[i], x * t.x + y * t.y + z * t.z);
+    store8(&inside_[i], ones8(load8(&positions.distance2[i]) < inside2));
+  }
 }
 
 void PlanePoints::turn(Vec2 axis) {
