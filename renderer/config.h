@@ -21,7 +21,7 @@ struct PhotonConfig {
 struct EyeConfig {
   bool gather = true;        // false: show the global map directly
   int gather_rays = 4;       // per eye sample
-  int light_samples = 4;     // per eye sample at most; one light each
+  int light_samples = 4;     // per eye sample; each chooses one light
   int samples_per_pass = 1;  // eye samples per pixel and pass
   double retrace = 2;        // gather rays shorter than this many bandwidths go on
 };
