@@ -62,21 +62,6 @@ float on_octant_side(const Octants& boxes, int i, float x, float y) {
   return on ? 1.0f : 0.0f;
 }
 
-Fit fit_one(const PlanePoints& points, const Lanes& box, float radius) {
-  Float8 count = {};
-  for (int i = 0; i < points.padded_size(); i += kSides) {
-    const Float8 x = load8(points.x() + i), y = load8(points.y() + i);
-    const Float8 p = (x + y) * kSqrtHalf, m = (y - x) * kSqrtHalf;
-    const Mask8 within = (x < box[0]) & (p < box[1]) & (y < box[2]) & (m < box[3]) & (-x < box[4]) &
-                         (-p < box[5]) & (-y < box[6]) & (-m < box[7]);
-    const Float8 inside = load8(points.inside() + i);
-    count += within ? inside : splat8(0);
-  }
-  float total = 0;
-  for (int j = 0; j < kSides; ++j) total += count[j];
-  return {total, octobox_area(box, radius)};
-}
-
 Fit fit_octants(const PlanePoints& points, const Lanes& box, const Lanes& own_share, float radius) {
   const Octants own = octant_boxes(points);
   const Lanes own_area = octant_areas(own, radius);
@@ -119,13 +104,29 @@ OctantUse parse_octant_use(const std::string& name) {
   throw Error(unknown_name("octants", name, {"auto", "one", "eight"}));
 }
 
+float count_inside(const PlanePoints& points, const Lanes& box) {
+  Float8 count = {};
+  for (int i = 0; i < points.padded_size(); i += kSides) {
+    const Float8 x = load8(points.x() + i), y = load8(points.y() + i);
+    const Float8 p = (x + y) * kSqrtHalf, m = (y - x) * kSqrtHalf;
+    const Mask8 within = (x < box[0]) & (p < box[1]) & (y < box[2]) & (m < box[3]) & (-x < box[4]) &
+                         (-p < box[5]) & (-y < box[6]) & (-m < box[7]);
+    const Float8 inside = load8(points.inside() + i);
+    count += within ? inside : splat8(0);
+  }
+  float total = 0;
+  for (int j = 0; j < kSides; ++j) total += count[j];
+  return total;
+}
+
 Fit fit_octobox(PlanePoints& points, float radius, OctantUse use) {
   const Lanes box = align(points);
   Lanes shares{};
   if (use == OctantUse::eight) shares.fill(1);
   if (use == OctantUse::automatic) shares = own_shares(points);
   const bool one = std::all_of(shares.begin(), shares.end(), [](float s) { return s == 0; });
-  return one ? fit_one(points, box, radius) : fit_octants(points, box, shares, radius);
+  if (one) return {count_inside(points, box), octobox_area(box, radius)};
+  return fit_octants(points, box, shares, radius);
 }
 
 float published_octobox_area(const PlanePoints& points, OctantUse use) {

@@ -33,6 +33,9 @@ struct Fit {
   float area = 0;
 };
 
+/// Points of the bandwidth strictly inside their box.
+float count_inside(const PlanePoints& points, const Lanes& box);
+
 /// Fit in the disc of `radius`; the points are those of the disc of radius 1 around the query, and
 /// are left turned into the box's axes.
 Fit fit_octobox(PlanePoints& points, float radius, OctantUse use);

@@ -53,7 +53,8 @@ void add_options(CLI::App& verb, LabArguments& a) {
   verb.add_option("--neighbours", a.neighbours, "Photons in a look-up (default: 3 to 2000)")
       ->type_name("N")
       ->check(CLI::Range(1, 100000).description(""));
-  verb.add_option("--runs", a.runs, "Look-ups of 50 photons; of n photons 50/n times as many (4000)")
+  verb.add_option("--runs", a.runs,
+                  "Look-ups of 50 photons; of n photons 50/n times as many (4000)")
       ->type_name("N")
       ->check(CLI::Range(16, 100000000).description(""));
   verb.add_option("--angle", a.angle, "Turn the case by this angle (default: all round)")

@@ -28,9 +28,9 @@ double difference(const Estimate& a, const Estimate& b) {
 }
 
 bool is_usable(const Estimate& e) {
-  return is_finite(e.radiance) && e.radiance.r >= 0 && e.radiance.g >= 0 &&
-         e.radiance.b >= 0 && std::isfinite(e.bandwidth) && e.bandwidth >= 0 &&
-         std::isfinite(e.area) && e.area >= 0 && e.count >= 0;
+  return is_finite(e.radiance) && e.radiance.r >= 0 && e.radiance.g >= 0 && e.radiance.b >= 0 &&
+         std::isfinite(e.bandwidth) && e.bandwidth >= 0 && std::isfinite(e.area) && e.area >= 0 &&
+         e.count >= 0;
 }
 
 // Rounding moves a photon by 2^-24 of its distance from the origin (10 bandwidths at most here) per
