@@ -46,36 +46,96 @@ Lanes align(PlanePoints& points) {
   return octobox_with_origin(points);
 }
 
-/// 1 where a point holds up a side of the box, 0 inside it. Compares what octobox_with_origin
-/// computed, bit for bit.
-float on_side(const Lanes& box, float x, float y) {
-  const float p = (x + y) * kSqrtHalf, m = (y - x) * kSqrtHalf;
-  const bool on = (x == box[0]) | (p == box[1]) | (y == box[2]) | (m == box[3]) | (-x == box[4]) |
-                  (-p == box[5]) | (-y == box[6]) | (-m == box[7]);
-  return on ? 1.0f : 0.0f;
+/// Set where a point is strictly inside the box. Compares what octobox_with_origin computed, bit
+/// for bit.
+__attribute__((always_inline)) inline Mask8 is_within(const Lanes& box, Float8 x, Float8 y) {
+  const Float8 p = (x + y) * kSqrtHalf, m = (y - x) * kSqrtHalf;
+  return (x < box[0]) & (p < box[1]) & (y < box[2]) & (m < box[3]) & (-x < box[4]) & (-p < box[5]) &
+         (-y < box[6]) & (-m < box[7]);
 }
 
-float on_octant_side(const Octants& boxes, int i, float x, float y) {
-  const Folded p = fold(x, y);
-  const bool on = (p.a == boxes.a[i]) | (p.b == boxes.b[i]) | (p.sum == boxes.sum[i]) |
-                  (p.difference == boxes.difference[i]);
-  return on ? 1.0f : 0.0f;
+/// Eight points folded into their octants.
+struct Folded8 {
+  Float8 a, b, sum, difference;
+};
+__attribute__((always_inline)) inline Folded8 fold8(Float8 x, Float8 y) {
+  const Float8 u = abs8(x), v = abs8(y);
+  const Float8 a = max8(u, v), b = min8(u, v);
+  return {a, b, a + b, a - b};
+}
+
+/// The points in order of their octants, each octant padded to whole groups of eight.
+struct SortedPoints {
+  PlanePoints points;
+  std::array<int, kSides + 1> start;
+};
+
+void sort_by_octant(const PlanePoints& points, SortedPoints& sorted) {
+  const std::array<int, kSides> counts = octant_counts(points);
+  sorted.start[0] = 0;
+  for (int i = 0; i < kSides; ++i) {
+    sorted.start[i + 1] = sorted.start[i] + (counts[i] + kSides - 1) / kSides * kSides;
+  }
+  sorted.points.resize(sorted.start[kSides]);
+  std::array<int, kSides> next;
+  for (int i = 0; i < kSides; ++i) {
+    next[i] = sorted.start[i];
+    for (int k = next[i] + counts[i]; k < sorted.start[i + 1]; ++k) {
+      sorted.points.set(k, {0, 0}, false);
+    }
+  }
+  for (int i = 0; i < points.size(); ++i) {
+    const Vec2 p = points[i];
+    sorted.points.set(next[octant(p.x, p.y)]++, p, points.inside()[i] > 0);
+  }
+}
+
+Octants sorted_octant_boxes(const SortedPoints& sorted) {
+  Octants boxes;
+  for (int i = 0; i < kSides; ++i) {
+    Float8 most[kSides] = {};
+    for (int k = sorted.start[i]; k < sorted.start[i + 1]; k += kSides) {
+      const Folded8 p = fold8(load8(sorted.points.x() + k), load8(sorted.points.y() + k));
+      most[0] = max8(most[0], p.a);
+      most[1] = max8(most[1], p.b);
+      most[2] = max8(most[2], p.sum);
+      most[3] = max8(most[3], p.difference);
+    }
+    const Float8 support = reduce8(most, Max8{});
+    boxes.a[i] = support[0];
+    boxes.b[i] = support[1];
+    boxes.sum[i] = support[2];
+    boxes.difference[i] = support[3];
+  }
+  return boxes;
+}
+
+/// Points of octant i inside its boxes: `share` of a point for its own, the rest for the common
+/// one.
+float count_octant(const SortedPoints& sorted, int i, const Lanes& box, const Octants& own,
+                   float share) {
+  Float8 count = {};
+  for (int k = sorted.start[i]; k < sorted.start[i + 1]; k += kSides) {
+    const Float8 x = load8(sorted.points.x() + k), y = load8(sorted.points.y() + k);
+    const Folded8 p = fold8(x, y);
+    const Mask8 within_own = (p.a < own.a[i]) & (p.b < own.b[i]) & (p.sum < own.sum[i]) &
+                             (p.difference < own.difference[i]);
+    count += load8(sorted.points.inside() + k) *
+             ((1 - share) * ones8(is_within(box, x, y)) + share * ones8(within_own));
+  }
+  return sum8(count);
 }
 
 Fit fit_octants(const PlanePoints& points, const Lanes& box, const Lanes& own_share, float radius) {
-  const Octants own = octant_boxes(points);
+  thread_local SortedPoints sorted;
+  sort_by_octant(points, sorted);
+  const Octants own = sorted_octant_boxes(sorted);
   const Lanes own_area = octant_areas(own, radius);
   const Lanes common_area = octant_areas(split(box), radius);
   Fit fit;
   for (int i = 0; i < kSides; ++i) {
     fit.area += (1 - own_share[i]) * common_area[i] + own_share[i] * own_area[i];
-  }
-  for (int i = 0; i < points.size(); ++i) {
-    const float x = points.x()[i], y = points.y()[i];
-    const int o = octant(x, y);
-    const float held =
-        (1 - own_share[o]) * on_side(box, x, y) + own_share[o] * on_octant_side(own, o, x, y);
-    fit.count += points.inside()[i] * (1 - held);
+    fit.count += count_octant(sorted, i, box, own, own_share[i]);
   }
   return fit;
 }
@@ -108,15 +168,10 @@ float count_inside(const PlanePoints& points, const Lanes& box) {
   Float8 count = {};
   for (int i = 0; i < points.padded_size(); i += kSides) {
     const Float8 x = load8(points.x() + i), y = load8(points.y() + i);
-    const Float8 p = (x + y) * kSqrtHalf, m = (y - x) * kSqrtHalf;
-    const Mask8 within = (x < box[0]) & (p < box[1]) & (y < box[2]) & (m < box[3]) & (-x < box[4]) &
-                         (-p < box[5]) & (-y < box[6]) & (-m < box[7]);
     const Float8 inside = load8(points.inside() + i);
-    count += within ? inside : splat8(0);
+    count += is_within(box, x, y) ? inside : splat8(0);
   }
-  float total = 0;
-  for (int j = 0; j < kSides; ++j) total += count[j];
-  return total;
+  return sum8(count);
 }
 
 Fit fit_octobox(PlanePoints& points, float radius, OctantUse use) {

@@ -64,10 +64,6 @@ void grow(std::vector<float>& v, int count) {
   if (v.size() != padded_count(count)) v.resize(padded_count(count));
 }
 
-inline float sum8(Float8 v) {
-  return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]));
-}
-
 }  // namespace
 
 void PlanePoints::resize(int count) {

@@ -32,6 +32,10 @@ OCTOLUX_INLINE Float8 sqrt8(Float8 a) {
 /// 1 where the mask is set, else 0.
 OCTOLUX_INLINE Float8 ones8(Mask8 m) { return m ? splat8(1) : splat8(0); }
 
+OCTOLUX_INLINE float sum8(Float8 v) {
+  return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]));
+}
+
 struct Add8 {
   __attribute__((always_inline)) Float8 operator()(Float8 a, Float8 b) const { return a + b; }
 };

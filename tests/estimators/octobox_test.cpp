@@ -183,6 +183,27 @@ TEST(OctoBox, CountsThePhotonsWhoseAbsenceLeavesTheBox) {
   }
 }
 
+TEST(OctoBox, OctantsCountThePhotonsWhoseAbsenceLeavesTheirBox) {
+  for (int seed = 0; seed < 40; ++seed) {
+    PlanePoints points = make_points(seed);
+    const Fit fit = fit_octobox(points, 0.9f, OctantUse::eight);  // turns the points
+    const Octants boxes = octant_boxes(points);
+    int expected = 0;
+    for (int i = 0; i < points.size(); ++i) {
+      PlanePoints others = points;
+      others.set(i, {0, 0}, false);
+      const Octants left = octant_boxes(others);
+      const bool same = left.a == boxes.a && left.b == boxes.b && left.sum == boxes.sum &&
+                        left.difference == boxes.difference;
+      if (same && points.inside()[i] > 0) ++expected;
+    }
+    EXPECT_EQ(fit.count, static_cast<float>(expected)) << "seed " << seed;
+    float area = 0;
+    for (const float a : octant_areas(boxes, 0.9f)) area += a;
+    EXPECT_EQ(fit.area, area) << "seed " << seed;
+  }
+}
+
 TEST(OctoBox, PublishedFormsAreThePapers) {
   for (int seed = 0; seed < 40; ++seed) {
     const PlanePoints points = make_points(seed);
