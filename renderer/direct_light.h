@@ -16,8 +16,8 @@ struct DirectStrategy {
   int max_crossings = 0;  // panes and masks a connection may cross; negative: no light
 };
 
-/// Next-event estimation at `at`: radiance towards at.wo(), the share of it that the heuristic gives
-/// this technique.
+/// Next-event estimation at `at`: radiance towards at.wo(), the share of it that the heuristic
+/// gives this technique.
 Rgb sample_lights(Tracer& tracer, const LightSampler& lights, const Scattering& at,
                   const DirectStrategy& strategy);
 

@@ -25,6 +25,7 @@ inline std::vector<EstimatorConfig> all_configs() {
         config.kernel = name;
         config.correction = correction;
         config.octants = octants;
+        config.neighbours = 50;
         configs.push_back(config);
       }
     }

@@ -236,6 +236,7 @@ TEST(OctoBox, PublishedEstimateIsFluxOverArea) {
   config.kernel = "octobox";
   config.correction = false;
   config.octants = "one";
+  config.neighbours = 50;
   const Estimate e = lookup(config);
   EXPECT_EQ(e.count, 50);
   EXPECT_NEAR(e.radiance.g * e.area, 50, 50 * 0x1p-17);
