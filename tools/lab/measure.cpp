@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "core/bsdf_makers.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "estimators/radial.h"
