@@ -59,6 +59,17 @@ struct BlockDistances {
   }
 };
 
+/// Where a look-up may find photons. Decided at compile time, so a look-up without a region pays
+/// nothing for those with one.
+struct Anywhere {
+  bool contains(Vec3) const { return true; }
+};
+struct Inside {
+  const PhotonRegion& region;
+  Vec3 position;
+  bool contains(Vec3 photon) const { return region.contains(photon - position); }
+};
+
 float squash_factor(const PhotonQuery& query) {
   OCTOLUX_CHECK(query.squash >= 1);
   return query.squash * query.squash - 1;
@@ -89,6 +100,19 @@ std::size_t PhotonMap::memory() const {
 
 std::span<const Neighbour> PhotonMap::nearest(const PhotonQuery& query, std::size_t k,
                                               NeighbourBuffer& buffer) const {
+  if (query.region == nullptr) return nearest_in(Anywhere{}, query, k, buffer);
+  return nearest_in(Inside{*query.region, query.position}, query, k, buffer);
+}
+
+std::span<const Neighbour> PhotonMap::within(const PhotonQuery& query,
+                                             NeighbourBuffer& buffer) const {
+  if (query.region == nullptr) return within_in(Anywhere{}, query, buffer);
+  return within_in(Inside{*query.region, query.position}, query, buffer);
+}
+
+template <class Region>
+std::span<const Neighbour> PhotonMap::nearest_in(Region region, const PhotonQuery& query,
+                                                 std::size_t k, NeighbourBuffer& buffer) const {
   k = std::min(k, size());
   if (k == 0) return {};
   const std::size_t full = 2 * k + PhotonTree::kBlockSize;
@@ -107,7 +131,10 @@ std::span<const Neighbour> PhotonMap::nearest(const PhotonQuery& query, std::siz
     const BlockDistances block(tree_.block(b), query, squash);
     for (std::uint32_t lane = 0; lane < PhotonTree::kBlockSize; ++lane) {
       const std::uint32_t photon = b * PhotonTree::kBlockSize + lane;
-      if (!(block.distance2[lane] < limit) || !counts(payloads_[photon])) continue;
+      if (!(block.distance2[lane] < limit) || !region.contains(tree_.position(photon)) ||
+          !counts(payloads_[photon])) {
+        continue;
+      }
       items[count++] = {block.distance2[lane], photon};
     }
     if (count >= full) {
@@ -122,8 +149,9 @@ std::span<const Neighbour> PhotonMap::nearest(const PhotonQuery& query, std::siz
   return {items, count};
 }
 
-std::span<const Neighbour> PhotonMap::within(const PhotonQuery& query,
-                                             NeighbourBuffer& buffer) const {
+template <class Region>
+std::span<const Neighbour> PhotonMap::within_in(Region region, const PhotonQuery& query,
+                                                NeighbourBuffer& buffer) const {
   const float squash = squash_factor(query);
   const float limit = query.max_radius * query.max_radius;
   PhotonFilter counts(query);
@@ -135,7 +163,10 @@ std::span<const Neighbour> PhotonMap::within(const PhotonQuery& query,
     const BlockDistances block(tree_.block(b), query, squash);
     for (std::uint32_t lane = 0; lane < PhotonTree::kBlockSize; ++lane) {
       const std::uint32_t photon = b * PhotonTree::kBlockSize + lane;
-      if (!(block.distance2[lane] < limit) || !counts(payloads_[photon])) continue;
+      if (!(block.distance2[lane] < limit) || !region.contains(tree_.position(photon)) ||
+          !counts(payloads_[photon])) {
+        continue;
+      }
       buffer.items.push_back({block.distance2[lane], photon});
     }
   }

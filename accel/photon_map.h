@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "accel/photon_region.h"
 #include "accel/photon_tree.h"
 #include "core/photon.h"
 
@@ -24,6 +25,7 @@ struct PhotonQuery {
   int max_segments = 255;    // photons with longer paths do not count
   bool both_sides = false;   // count photons arriving from either side (smooth transmission)
   float squash = 3;          // >= 1; metric |d|^2 + (squash^2 - 1) (d . normal)^2 (Jensen 2002)
+  const PhotonRegion* region = nullptr;  // if given, only photons above or below it count
 };
 
 /// A photon near a query's position.
@@ -65,6 +67,13 @@ class PhotonMap {
   Vec3 wi(std::uint32_t photon) const { return octolux::wi(payloads_[photon]); }
 
  private:
+  template <class Region>
+  std::span<const Neighbour> nearest_in(Region region, const PhotonQuery& query, std::size_t k,
+                                        NeighbourBuffer& buffer) const;
+  template <class Region>
+  std::span<const Neighbour> within_in(Region region, const PhotonQuery& query,
+                                       NeighbourBuffer& buffer) const;
+
   PhotonTree tree_;
   std::vector<PhotonPayload> payloads_;  // in the tree's order
   std::size_t rejected_ = 0;
