@@ -1,4 +1,7 @@
-// A perspective camera, as Mitsuba's `perspective` sensor.
+// A perspective camera, as Mitsuba's `perspective` sensor: camera space has x to the left of the
+// picture, y up and z forward, so an ordinary (not mirrored) to_world does not mirror the picture.
+// Only rays' directions feel a scale in to_world; clip distances are metres of the world.
+// Immutable after construction, so thread-safe.
 #pragma once
 
 #include "core/affine.h"
@@ -15,11 +18,12 @@ struct FilmSize {
 };
 
 struct CameraConfig {
-  Affine to_world;              // camera space: x left, y up, z forward (Mitsuba); may be mirrored
+  Affine to_world;              // invertible; may be mirrored or scaled unevenly
   float fov_x_degrees = 39.6f;  // full horizontal angle of the whole film, in (0, 180)
   float near_clip = 1e-2f;      // [m] along the view axis
   float far_clip = 1e4f;
-  Vec2 principal_offset{0, 0};  // Mitsuba's principalPointOffset, in fractions of the film
+  Vec2 principal_offset{0, 0};  // Mitsuba's principalPointOffset, in fractions of the whole film:
+                                // pixel p shows what p + offset * size showed without
 };
 
 class Camera {
@@ -27,9 +31,10 @@ class Camera {
   Camera() : Camera(CameraConfig{}, FilmSize{}) {}
   Camera(const CameraConfig& config, const FilmSize& film);
 
-  /// The ray through `p` [pixels of the crop window; (0, 0) is its top left corner].
+  /// The ray through `p` [pixels of the crop window; (0, 0) is its top left corner, pixel centres
+  /// are at half]. It starts at the eye, and its t interval ends at the clip planes.
   Ray ray(Vec2 p) const;
-  /// Cosine between the ray through `p` and the view axis (depth = t * cosine).
+  /// Normal of the image plane, the view axis: depth of a hit = t * dot(ray.direction, forward()).
   Vec3 forward() const { return forward_; }
   const CameraConfig& config() const { return config_; }
 

@@ -2,8 +2,8 @@
 // inverting the cumulative sum (inversion keeps strata of u together). The random number is given
 // back, stretched to [0, 1) again, so that one draw may both choose a thing and a place in it.
 //
-// Sums are kept in double: with 10^6 weights a float sum would lose the small ones. A weight of zero
-// is never chosen. Immutable after construction, so thread-safe.
+// Sums are kept in double: with 10^6 weights a float sum would lose the small ones. A weight of
+// zero is never chosen. Immutable after construction, so thread-safe.
 #pragma once
 
 #include <span>

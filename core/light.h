@@ -1,9 +1,15 @@
 // Light sources: sampled towards a point (next-event estimation) and emitting photons.
+//
+// Both views describe the same light: the mean over u of radiance / pdf_w * g(wi) is the integral
+// of arriving radiance times g, and the mean of emitted flux is the power. Radiance that leaves a
+// surface does so only where the cosine with its ng is positive. Nothing here is ever NaN: a light
+// that is degenerate (no area, black, or exactly where x is) samples nothing, and has no power.
 #pragma once
 
 #include <memory>
 #include <optional>
 
+#include "core/affine.h"
 #include "core/image.h"
 #include "core/ray.h"
 #include "core/rgb.h"
@@ -16,14 +22,14 @@ struct LightSample {
   Vec3 wi;             // unit, from x towards the light
   Rgb radiance;        // [W m^-2 sr^-1] arriving; for a delta light intensity / distance^2 [W m^-2]
   float pdf_w = 0;     // [sr^-1] at x; 1 for a delta light
-  bool delta = false;  // point, directional: BSDF sampling never finds it
+  bool delta = false;  // point light: BSDF sampling never finds it
   bool infinite = false;
-  SurfacePoint at;  // where the light comes from (position, ng, error); unset if infinite
+  SurfacePoint at;  // where the light comes from (all but shape and uv); unset if infinite
 };
 
 /// A photon leaving a light.
 struct EmittedPhoton {
-  Ray ray;
+  Ray ray;   // starts off the light's surface; from infinite lights behind the scene
   Rgb flux;  // [W] emitted radiance * cosine / pdf: mean over many = power of the light
 };
 
@@ -35,13 +41,14 @@ class Light {
   /// A direction towards the light, seen from x; empty if no light can reach x this way.
   virtual std::optional<LightSample> sample(Vec3 x, Vec2 u) const = 0;
 
-  /// A photon; `u_position` chooses where it starts, `u_direction` where it goes.
+  /// A photon; `u_position` chooses where it starts, `u_direction` where it goes. Its flux is black
+  /// if the light has no power.
   virtual EmittedPhoton emit(Vec2 u_position, Vec2 u_direction) const = 0;
 
   /// Emitted power [W]. Infinite lights: power through the scene's bounding sphere.
   virtual Rgb power() const = 0;
 
-  /// Called once when the scene is complete.
+  /// Called once when the scene is complete, before anything is emitted or power() asked.
   virtual void set_scene_bounds(Vec3 /*center*/, float /*radius*/) {}
 };
 
@@ -50,7 +57,8 @@ class AreaLight : public Light {
  public:
   /// Radiance leaving `y` (on this light's shape) towards `wo`.
   virtual Rgb radiance(const SurfacePoint& y, Vec3 wo) const = 0;
-  /// Density [sr^-1] with which `sample(x)` chooses the direction towards y.
+  /// Density [sr^-1] with which `sample(x)` chooses the direction towards y; 0 where y does not
+  /// emit towards x. Uses y's position and ng.
   virtual float pdf_w(Vec3 x, const SurfacePoint& y) const = 0;
 };
 
@@ -59,15 +67,18 @@ class EnvironmentLight : public Light {
  public:
   /// Radiance arriving from the direction `wi` (unit, away from the scene).
   virtual Rgb radiance(Vec3 wi) const = 0;
+  /// Density [sr^-1] with which `sample` chooses wi, whatever x.
   virtual float pdf_w(Vec3 wi) const = 0;
 };
 
-/// `shape` must outlive the light and stay where it is.
+/// `shape` must outlive the light and stay where it is. Radiance is finite and not negative.
 std::unique_ptr<AreaLight> make_area_light(const Shape& shape, Rgb radiance);
 std::unique_ptr<Light> make_point_light(Vec3 position, Rgb intensity);  // [W sr^-1]
 std::unique_ptr<EnvironmentLight> make_constant_light(Rgb radiance);
-/// `image` is latitude-longitude as in Mitsuba (row 0 is +y, u = 0 is -z turning ... see .cpp),
-/// turned by the rotation in `to_world`; `scale` multiplies it. Importance sampled.
+/// `image` is latitude-longitude as in Mitsuba 3, before `to_world`: the top row is +y, the bottom
+/// row -y; u = 0 (the left edge) is -z, u = 1/4 is +x, u = 1/2 +z, u = 3/4 -x. Of `to_world` only
+/// the rotation (and mirroring) counts. `scale` multiplies the image. Negative and non-finite
+/// values count as 0. Interpolated bilinearly and importance sampled. At least one pixel.
 std::unique_ptr<EnvironmentLight> make_envmap_light(Image image, const Affine& to_world,
                                                     float scale);
 

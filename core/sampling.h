@@ -42,13 +42,22 @@ inline Vec2 sample_triangle(Vec2 u) {
   return {1 - root, u.y * root};
 }
 
+/// x in [0, 1] with density proportional to a (1 - x) + b x. Not both may be zero, nor negative.
+/// The root of the quadratic that does not cancel; also right for u = 1.
+inline float sample_linear(float u, float a, float b) {
+  if (u == 0) return 0;
+  const float root = std::sqrt(a * a * (1 - u) + b * b * u);
+  return std::min(u * (a + b) / (a + root), 1.0f);
+}
+
 /// Power heuristic (Veach 1997, 9.2.4) of `n_a` samples of density `pdf_a` against `n_b` of
-/// `pdf_b`.
+/// `pdf_b`. Densities may be infinite (not both) or so small that their squares underflow.
 inline float power_heuristic(float n_a, float pdf_a, float n_b, float pdf_b) {
   const float a = n_a * pdf_a;
   const float b = n_b * pdf_b;
-  if (std::isinf(a * a)) return 1;
-  return a == 0 ? 0 : a * a / (a * a + b * b);
+  if (a == 0 || std::isinf(b)) return 0;
+  const float ratio = b / a;
+  return 1 / (1 + ratio * ratio);
 }
 
 }  // namespace octolux

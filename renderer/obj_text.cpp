@@ -1,0 +1,101 @@
+// One pass over the bytes of an OBJ file before tinyobjloader reads them; see obj_text.h.
+#include "renderer/obj_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "core/error.h"
+#include "core/hash.h"
+
+namespace octolux {
+
+std::string read_text_file(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) {
+    throw Error(fmt::format("{}: cannot be read: it is a directory", path));
+  }
+  errno = 0;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw Error(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
+  std::string bytes;
+  const auto size = std::filesystem::file_size(path, error);
+  if (!error) bytes.reserve(size + 1);
+  bytes.assign(std::istreambuf_iterator<char>(in), {});
+  if (in.bad()) throw Error(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
+  return bytes;
+}
+
+std::string_view trim(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
+}
+
+ObjText::ObjText(const std::string& path) : path_(path), text_(read_text_file(path)) {
+  hash_ = hash_bytes(0, text_);
+  text_ += '\n';
+  unify_line_breaks();
+  for (std::size_t begin = 0; begin < text_.size();) {
+    const std::size_t end = text_.find('\n', begin);
+    read_statement(begin, end);
+    begin = end + 1;
+  }
+}
+
+void ObjText::unify_line_breaks() {
+  for (std::size_t i = text_.find('\r'); i != std::string::npos; i = text_.find('\r', i + 1)) {
+    text_[i] = text_[i + 1] == '\n' ? ' ' : '\n';  // a '\n' was appended, so i + 1 exists
+  }
+  for (std::size_t i = text_.find('\\'); i != std::string::npos; i = text_.find('\\', i + 1)) {
+    const std::size_t end = text_.find_first_not_of(' ', i + 1);
+    const bool last = end != std::string::npos && end + 1 == text_.size();
+    if (end == std::string::npos || text_[end] != '\n' || last) continue;
+    text_[i] = text_[end] = ' ';
+    joined_.push_back(end);
+  }
+}
+
+void ObjText::read_statement(std::size_t begin, std::size_t end) {
+  begin = text_.find_first_not_of(" \t", begin);
+  if (begin >= end || text_[begin] == '#') return;
+  const std::size_t word_end = std::min(text_.find_first_of(" \t", begin), end);
+  const std::string_view word(text_.data() + begin, word_end - begin);
+  if (word == "v" || word == "vn" || word == "vt" || word == "f") {
+    const auto line_end = text_.begin() + static_cast<std::ptrdiff_t>(end);
+    const auto line_begin = text_.begin() + static_cast<std::ptrdiff_t>(begin);
+    std::fill(std::find(line_begin, line_end, '#'), line_end, ' ');
+  } else if (word == "mtllib") {
+    const auto rest = trim({text_.data() + word_end, end - word_end});
+    if (!rest.empty()) mtllibs_.emplace_back(rest);
+  } else if (word != "usemtl" && word != "g" && word != "o" && word != "s") {
+    const bool room = ignored_.size() < 8;  // a file that is no OBJ at all would fill pages
+    if (room && !ignored_.contains(std::string(word))) ignored_.emplace(word, line_number(begin));
+  }
+}
+
+std::size_t ObjText::line_number(std::size_t offset) const {
+  const auto breaks =
+      std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(offset), '\n');
+  const auto joins = std::lower_bound(joined_.begin(), joined_.end(), offset) - joined_.begin();
+  return static_cast<std::size_t>(1 + breaks + joins);
+}
+
+std::string_view ObjText::line_before(std::size_t end) const {
+  const std::size_t before = end < 2 ? std::string::npos : text_.rfind('\n', end - 2);
+  const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+  return std::string_view(text_).substr(begin, end - 1 - begin);
+}
+
+std::string ObjText::place_before(std::size_t end) const {
+  const std::string_view line = line_before(end);
+  return fmt::format("{}:{}", path_,
+                     line_number(static_cast<std::size_t>(line.data() - text_.data())));
+}
+
+}  // namespace octolux

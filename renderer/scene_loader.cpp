@@ -1,0 +1,47 @@
+// Chooses the loader by the file's extension.
+#include "renderer/scene_loader.h"
+
+#include <cctype>
+#include <filesystem>
+
+#include "core/error.h"
+#include "renderer/file_hash.h"
+#include "renderer/obj_scene.h"
+#include "renderer/xml_scene.h"
+
+namespace octolux {
+namespace {
+
+std::string lower_extension(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+void load_bare_obj(const std::string& path, const LoadOptions& options, Scene& scene) {
+  if (!options.defines.empty()) {
+    throw Error(path + ": -D " + options.defines.begin()->first +
+                ": an .obj file has no parameters");
+  }
+  load_obj_scene(path, scene);
+  if (scene.hash == 0) scene.hash = hash_bytes(read_whole_file(path));
+}
+
+}  // namespace
+
+std::unique_ptr<Scene> load_scene(const std::string& path, const LoadOptions& options) {
+  const std::string extension = lower_extension(path);
+  auto scene = std::make_unique<Scene>();
+  if (extension == ".xml") {
+    load_xml_scene(path, options.defines, *scene);
+  } else if (extension == ".obj") {
+    load_bare_obj(path, options, *scene);
+  } else {
+    throw Error(path + ": a scene is an .xml (Mitsuba) or .obj (Wavefront) file, not '" +
+                extension + "'");
+  }
+  scene->complete();
+  return scene;
+}
+
+}  // namespace octolux

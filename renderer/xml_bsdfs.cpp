@@ -1,0 +1,176 @@
+// <bsdf>: names, parameters and defaults of Mitsuba's surface plug-ins that we model.
+#include <memory>
+#include <string>
+
+#include "core/bsdf.h"
+#include "core/ior.h"
+#include "renderer/xml_objects.h"
+
+namespace octolux {
+namespace {
+
+using Made = std::unique_ptr<Bsdf>;
+
+// ---- parameters several plug-ins share
+
+/// An index of refraction: a number or the name of a material.
+float read_ior(Properties& p, const std::string& name, const char* fallback) {
+  const XmlNode* node = p.find(name);
+  if (node && node->tag != "string") return p.positive(name, 1);
+  const std::string material = p.text(name).value_or(fallback);
+  const std::optional<float> ior = named_ior(material);
+  if (!ior) p.fail(name, unknown_name("material", material, ior_names()));
+  return *ior;
+}
+
+/// Interior index over exterior index.
+float read_eta(Properties& p, const char* interior) {
+  const float inside = read_ior(p, "int_ior", interior);
+  return inside / read_ior(p, "ext_ior", "air");
+}
+
+float read_alpha(Properties& p, const std::string& name, float fallback) {
+  const XmlNode* node = p.find(name);
+  if (node && node->object().tag == "texture") {
+    p.fail(name, "a texture cannot be used for '" + name + "'; give a number");
+  }
+  return p.positive(name, fallback);
+}
+
+MicrofacetKind read_distribution(Properties& p) {
+  p.ignore({"sample_visible"});
+  return p.choice("distribution", {"beckmann", "ggx"}) == "ggx" ? MicrofacetKind::ggx
+                                                                : MicrofacetKind::beckmann;
+}
+
+DielectricConfig read_dielectric(Properties& p, SceneBuilder& b) {
+  return {.eta = read_eta(p, "bk7"),
+          .specular_reflectance = b.constant_color(p, "specular_reflectance", 1),
+          .specular_transmittance = b.constant_color(p, "specular_transmittance", 1)};
+}
+
+ConductorIor read_named_conductor(Properties& p) {
+  const std::string material = p.text("material").value_or("Cu");
+  if (material == "none") return {Rgb(0), Rgb(1)};
+  const std::optional<ConductorIor> ior = named_conductor(material);
+  if (ior) return *ior;
+  std::vector<std::string> names = conductor_names();
+  names.push_back("none");
+  p.fail("material", unknown_name("material", material, names));
+}
+
+/// eta and k, or a material's name; over the index outside (0.5/0.6: extEta).
+ConductorConfig read_conductor(Properties& p, SceneBuilder& b) {
+  const std::optional<Rgb> eta = p.color("eta", ColorRole::ior);
+  const std::optional<Rgb> k = p.color("k", ColorRole::ior);
+  if (eta.has_value() != k.has_value()) p.fail("eta", "'eta' and 'k' go together");
+  ConductorIor ior = read_named_conductor(p);
+  if (eta) {
+    if (p.find("material")) p.fail("material", "give either 'material' or 'eta' and 'k'");
+    ior = {*eta, *k};
+    if (is_black(*eta) && is_black(*k)) p.fail("eta", "'eta' and 'k' must not both be 0");
+  }
+  const float outside = p.find("ext_eta") ? read_ior(p, "ext_eta", "air") : 1;
+  return {.eta = ior.eta / outside,
+          .k = ior.k / outside,
+          .specular_reflectance = b.color(p, "specular_reflectance", 1)};
+}
+
+PlasticConfig read_plastic(Properties& p, SceneBuilder& b) {
+  return {.eta = read_eta(p, "polypropylene"),
+          .diffuse_reflectance = b.color(p, "diffuse_reflectance", 0.5f),
+          .specular_reflectance = b.constant_color(p, "specular_reflectance", 1),
+          .nonlinear = p.boolean("nonlinear").value_or(false)};
+}
+
+/// The nested <bsdf>s, at least one and at most `most`.
+std::vector<const XmlNode*> read_nested(Properties& p, std::size_t most) {
+  std::vector<const XmlNode*> nested = p.objects("bsdf");
+  if (nested.empty() || nested.size() > most) {
+    fail(p.node().where, "bsdf '" + p.type() + "' needs " + (most > 1 ? "one or two" : "one") +
+                             " nested <bsdf>; there are " + std::to_string(nested.size()));
+  }
+  return nested;
+}
+
+// ---- one maker per plug-in
+
+Made diffuse(Properties& p, SceneBuilder& b) {
+  return make_diffuse(b.color(p, "reflectance", 0.5f));
+}
+
+Made dielectric(Properties& p, SceneBuilder& b) { return make_dielectric(read_dielectric(p, b)); }
+
+Made thin_dielectric(Properties& p, SceneBuilder& b) {
+  return make_thin_dielectric(read_dielectric(p, b));
+}
+
+Made rough_dielectric(Properties& p, SceneBuilder& b) {
+  const RoughDielectricConfig config{.dielectric = read_dielectric(p, b),
+                                     .kind = read_distribution(p),
+                                     .alpha = read_alpha(p, "alpha", 0.1f)};
+  if (config.dielectric.eta == 1) {
+    p.fail("int_ior", "a roughdielectric needs different 'int_ior' and 'ext_ior'");
+  }
+  return make_rough_dielectric(config);
+}
+
+Made conductor(Properties& p, SceneBuilder& b) { return make_conductor(read_conductor(p, b)); }
+
+Made rough_conductor(Properties& p, SceneBuilder& b) {
+  const bool anisotropic = p.find("alpha_u") || p.find("alpha_v");
+  if (anisotropic && p.find("alpha")) {
+    p.fail("alpha", "give either 'alpha' or 'alpha_u' and 'alpha_v'");
+  }
+  const float alpha = read_alpha(p, "alpha", 0.1f);
+  return make_rough_conductor({.conductor = read_conductor(p, b),
+                               .kind = read_distribution(p),
+                               .alpha_u = read_alpha(p, "alpha_u", alpha),
+                               .alpha_v = read_alpha(p, "alpha_v", alpha)});
+}
+
+Made plastic(Properties& p, SceneBuilder& b) { return make_plastic(read_plastic(p, b)); }
+
+Made rough_plastic(Properties& p, SceneBuilder& b) {
+  return make_rough_plastic({.plastic = read_plastic(p, b),
+                             .kind = read_distribution(p),
+                             .alpha = read_alpha(p, "alpha", 0.1f)});
+}
+
+Made two_sided(Properties& p, SceneBuilder& b) {
+  const std::vector<const XmlNode*> nested = read_nested(p, 2);
+  for (const XmlNode* object : nested) {
+    const std::string& type = object->required("type");
+    if (type.find("dielectric") != std::string::npos || type == "mask") {
+      fail(object->where, "a twosided bsdf cannot hold a '" + type + "', which lets light through");
+    }
+  }
+  const int front = b.bsdf(*nested.front()), back = b.bsdf(*nested.back());
+  return make_two_sided(*b.scene().bsdfs[front], *b.scene().bsdfs[back]);
+}
+
+Made mask(Properties& p, SceneBuilder& b) {
+  const int inner = b.bsdf(*read_nested(p, 1).front());
+  return make_mask(*b.scene().bsdfs[inner], b.color(p, "opacity", 0.5f));
+}
+
+constexpr Plugin<Made (*)(Properties&, SceneBuilder&)> kPlugins[] = {
+    {"diffuse", diffuse},
+    {"dielectric", dielectric},
+    {"thindielectric", thin_dielectric},
+    {"roughdielectric", rough_dielectric},
+    {"conductor", conductor},
+    {"roughconductor", rough_conductor},
+    {"plastic", plastic},
+    {"roughplastic", rough_plastic},
+    {"twosided", two_sided},
+    {"mask", mask},
+};
+
+}  // namespace
+
+std::unique_ptr<Bsdf> make_bsdf(Properties& properties, SceneBuilder& builder) {
+  return find_plugin(kPlugins, properties)(properties, builder);
+}
+
+}  // namespace octolux

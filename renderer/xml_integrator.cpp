@@ -1,0 +1,42 @@
+// <integrator>: only what changes the converged picture is taken over, the longest path and
+// whether lights are seen. How the picture is computed is this program's own choice.
+#include <algorithm>
+#include <iterator>
+
+#include "renderer/xml_objects.h"
+
+namespace octolux {
+namespace {
+
+/// Unbiased, or wrappers round one that is: any correct renderer gives the same picture.
+constexpr const char* kExact[] = {"path",   "volpath", "volpath_simple", "volpathmis", "direct",
+                                  "moment", "aov",     "bdpt",           "ptracer",    "adaptive"};
+
+}  // namespace
+
+void read_integrator(Properties& properties, SceneBuilder& builder) {
+  Scene& scene = builder.scene();
+  const std::string& type = properties.type();
+  const bool exact = std::find(std::begin(kExact), std::end(kExact), type) != std::end(kExact);
+  if (!exact) {
+    builder.warn(properties.node().where,
+                 "the integrator '" + type + "' is replaced by this program's own");
+  }
+  if (type == "direct") scene.max_depth = 2;
+  if (const std::optional<int> depth = properties.integer("max_depth")) {
+    if (*depth != -1 && *depth < 1) {
+      properties.fail("max_depth", "'max_depth' must be -1 (no limit) or at least 1");
+    }
+    scene.max_depth = *depth;
+  }
+  if (const std::optional<bool> hide = properties.boolean("hide_emitters")) {
+    scene.hide_emitters = *hide;
+  }
+  for (const XmlNode* nested : properties.objects("integrator")) {
+    Properties inner(*nested);
+    read_integrator(inner, builder);
+  }
+  properties.ignore_rest();
+}
+
+}  // namespace octolux

@@ -1,0 +1,211 @@
+// What the BSDF tests share: one of each kind of BSDF with names, directions to try, and accurate
+// integrals of a density over cells of the sphere.
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "core/bsdf.h"
+#include "core/rng.h"
+
+namespace octolux::test {
+
+/// A BSDF and those it refers to.
+struct Built {
+  std::vector<std::unique_ptr<Bsdf>> parts;
+  std::unique_ptr<Bsdf> bsdf;
+};
+
+struct BsdfCase {
+  std::string name;
+  std::function<Built()> build;
+  bool two_faced = false;  // does it scatter light that comes from behind?
+  float alpha = 1;         // roughness of its sharpest microfacet lobe; 1 if there is none
+
+  bool has_microfacets() const { return alpha < 1; }
+};
+
+inline Built single(std::unique_ptr<Bsdf> bsdf) { return {{}, std::move(bsdf)}; }
+
+inline Built two_sided(std::unique_ptr<Bsdf> front, std::unique_ptr<Bsdf> back) {
+  Built built;
+  built.bsdf = make_two_sided(*front, *back);
+  built.parts.push_back(std::move(front));
+  built.parts.push_back(std::move(back));
+  return built;
+}
+
+inline Built masked(std::unique_ptr<Bsdf> inner, Color opacity) {
+  Built built;
+  built.bsdf = make_mask(*inner, opacity);
+  built.parts.push_back(std::move(inner));
+  return built;
+}
+
+/// One of everything; reflectances are below one unless `white`, then nothing is absorbed on
+/// purpose.
+inline std::vector<BsdfCase> bsdf_cases(bool white = false) {
+  const Rgb colour = white ? Rgb(1) : Rgb(0.2f, 0.5f, 0.8f);
+  const Rgb tint = white ? Rgb(1) : Rgb(0.9f, 0.8f, 0.6f);
+  const Rgb ks = white ? Rgb(1, 0.5f, 0.04f) : Rgb(0.04f, 0.2f, 0.4f);
+  const DielectricConfig glass{1.5f, tint, tint};
+  const DielectricConfig bubble{1 / 1.33f, tint, tint};
+  const ConductorConfig metal{white ? Rgb(0) : Rgb(0.2f, 0.9f, 1.1f),
+                              white ? Rgb(1) : Rgb(3.9f, 2.5f, 2.1f), tint};
+  const PlasticConfig plastic{1.49f, colour, tint, false};
+  const PlasticConfig nonlinear{1.9f, colour, tint, true};
+  constexpr auto kBeckmann = MicrofacetKind::beckmann;
+  constexpr auto kGgx = MicrofacetKind::ggx;
+  using std::move;
+  return {
+      {"diffuse", [=] { return single(make_diffuse(colour)); }},
+      {"dielectric", [=] { return single(make_dielectric(glass)); }, true},
+      {"dielectric_bubble", [=] { return single(make_dielectric(bubble)); }, true},
+      {"thin_dielectric", [=] { return single(make_thin_dielectric(glass)); }, true},
+      {"conductor", [=] { return single(make_conductor(metal)); }},
+      {"rough_conductor_beckmann",
+       [=] {
+         return single(make_rough_conductor({metal, kBeckmann, 0.1f, 0.1f}));
+       },
+       false, 0.1f},
+      {"rough_conductor_ggx",
+       [=] {
+         return single(make_rough_conductor({metal, kGgx, 0.6f, 0.6f}));
+       },
+       false, 0.6f},
+      {"rough_conductor_brushed",
+       [=] {
+         return single(make_rough_conductor({metal, kGgx, 0.1f, 0.5f}));
+       },
+       false, 0.1f},
+      {"rough_conductor_brushed_beckmann",
+       [=] {
+         return single(make_rough_conductor({metal, kBeckmann, 0.7f, 0.25f}));
+       },
+       false, 0.25f},
+      {"rough_dielectric_beckmann",
+       [=] {
+         return single(make_rough_dielectric({glass, kBeckmann, 0.3f}));
+       },
+       true, 0.3f},
+      {"rough_dielectric_ggx",
+       [=] {
+         return single(make_rough_dielectric({glass, kGgx, 0.1f}));
+       },
+       true, 0.1f},
+      {"rough_dielectric_bubble",
+       [=] {
+         return single(make_rough_dielectric({bubble, kGgx, 0.4f}));
+       },
+       true, 0.4f},
+      {"plastic", [=] { return single(make_plastic(plastic)); }},
+      {"plastic_nonlinear", [=] { return single(make_plastic(nonlinear)); }},
+      {"rough_plastic_beckmann",
+       [=] {
+         return single(make_rough_plastic({plastic, kBeckmann, 0.1f}));
+       },
+       false, 0.1f},
+      {"rough_plastic_ggx",
+       [=] {
+         return single(make_rough_plastic({nonlinear, kGgx, 0.3f}));
+       },
+       false, 0.3f},
+      {"glossy",
+       [=] {
+         return single(make_glossy({colour, ks, 0.15f}));
+       },
+       false, 0.15f},
+      {"glossy_rough",
+       [=] {
+         return single(make_glossy({colour, ks, 0.5f}));
+       },
+       false, 0.5f},
+      {"two_sided",
+       [=] {
+         return two_sided(make_diffuse(colour), make_glossy({colour, ks, 0.3f}));
+       },
+       true, 0.3f},
+      {"mask", [=] { return masked(make_plastic(plastic), Rgb(0.3f, 0.6f, 1)); }},
+  };
+}
+
+/// Unit vector of cosine z and azimuth phi.
+inline Vec3 direction(double z, double phi) {
+  const double s = std::sqrt(std::max(0.0, 1 - z * z));
+  return {static_cast<float>(s * std::cos(phi)), static_cast<float>(s * std::sin(phi)),
+          static_cast<float>(z)};
+}
+
+/// Directions to look from: steep, slanting, grazing; from behind too if asked.
+inline std::vector<Vec3> views(bool behind) {
+  std::vector<Vec3> all{direction(0.999, 0.3), direction(0.6, 2.1), direction(0.12, -1)};
+  if (behind) {
+    all.push_back(direction(-0.85, 1));
+    all.push_back(direction(-0.3, -2));
+  }
+  return all;
+}
+
+struct Cell {
+  double z0 = 0, z1 = 1, phi0 = 0, phi1 = 1;
+};
+
+/// Integral of `f` over a cell of the sphere by 3 x 3 Gauss points.
+template <class F>
+double gauss9(const F& f, const Cell& c) {
+  constexpr double kNode[] = {-0.774596669241483, 0, 0.774596669241483};
+  constexpr double kWeight[] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+  double sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const double z = 0.5 * (c.z0 + c.z1 + kNode[i] * (c.z1 - c.z0));
+      const double phi = 0.5 * (c.phi0 + c.phi1 + kNode[j] * (c.phi1 - c.phi0));
+      sum += kWeight[i] * kWeight[j] * static_cast<double>(f(direction(z, phi)));
+    }
+  }
+  return sum * (c.z1 - c.z0) * (c.phi1 - c.phi0);
+}
+
+/// The same, halved adaptively until four quarters agree with the whole to within `tolerance`;
+/// `sure` is the number of halvings made in any case.
+template <class F>
+double integrate(const F& f, const Cell& c, double tolerance, int sure = 2, int most = 9) {
+  const double z = 0.5 * (c.z0 + c.z1), phi = 0.5 * (c.phi0 + c.phi1);
+  const Cell quarters[] = {{c.z0, z, c.phi0, phi},
+                           {z, c.z1, c.phi0, phi},
+                           {c.z0, z, phi, c.phi1},
+                           {z, c.z1, phi, c.phi1}};
+  double sum = 0;
+  if (sure <= 0) {
+    for (const Cell& q : quarters) sum += gauss9(f, q);
+    if (most <= 0 || std::abs(sum - gauss9(f, c)) < tolerance) return sum;
+    sum = 0;
+  }
+  for (const Cell& q : quarters) sum += integrate(f, q, tolerance / 4, sure - 1, most - 1);
+  return sum;
+}
+
+/// Sphere cut into cells equidistant in z and in phi; z = 0 is a border.
+struct SphereGrid {
+  int rows = 20, columns = 24;
+
+  int size() const { return rows * columns; }
+  Cell cell(int index) const {
+    const double dz = 2.0 / rows, dphi = 2 * std::numbers::pi / columns;
+    const int row = index / columns, column = index % columns;
+    return {-1 + row * dz, -1 + (row + 1) * dz, -std::numbers::pi + column * dphi,
+            -std::numbers::pi + (column + 1) * dphi};
+  }
+  int index(Vec3 w) const {
+    const double phi = std::atan2(static_cast<double>(w.y), static_cast<double>(w.x));
+    const int row = static_cast<int>((static_cast<double>(w.z) + 1) / 2 * rows);
+    const int column = static_cast<int>((phi / (2 * std::numbers::pi) + 0.5) * columns);
+    return std::min(row, rows - 1) * columns + std::min(column, columns - 1);
+  }
+};
+
+}  // namespace octolux::test

@@ -1,0 +1,41 @@
+// session.h.
+#include "tools/session.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace octolux {
+namespace {
+
+/// Time between two savings of an unfinished picture: this, or more if saving is slow.
+constexpr double kSaveSeconds = 5;
+constexpr double kSaveShare = 0.05;  // of the time, at most, goes into saving
+
+}  // namespace
+
+Session::Session(ProgressPrinter& printer, Save save)
+    : printer_(printer),
+      interrupt_(!printer.quiet()),
+      save_(std::move(save)),
+      interval_(kSaveSeconds) {}
+
+bool Session::pass_done(const Progress& progress, const Film& film) {
+  printer_.update(progress);
+  if (Clock::now() - last_save_ >= interval_) save(progress, film);
+  return !interrupt_.requested();
+}
+
+void Session::finish(const RenderResult& result) {
+  if (saved_passes_ != result.progress.passes) save(result.progress, result.film);
+}
+
+void Session::save(const Progress& progress, const Film& film) {
+  const Clock::time_point start = Clock::now();
+  save_(progress, film);
+  last_save_ = Clock::now();
+  saved_passes_ = progress.passes;
+  const Seconds spent = last_save_ - start;
+  interval_ = std::max(interval_, spent / kSaveShare);
+}
+
+}  // namespace octolux
