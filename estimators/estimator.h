@@ -24,6 +24,7 @@ struct EstimatorConfig {
   std::string kernel = "cone";
   int neighbours = 50;   // n; the bandwidth is the distance of the next one
   float cone_slope = 1;  // kappa >= 1 of the cone filter (Jensen)
+  int feelers = 8;       // geometry feelers: 8 or 4
 };
 
 /// Where radiance is wanted.

@@ -1,0 +1,94 @@
+// The integral of 1 - a d^2/h^2 over a convex part of a 45-degree sector within a disc, exactly.
+//
+// The sector is clipped by its half planes (Sutherland & Hodgman 1974); around the boundary, each
+// edge p q contributes what lies between it and the origin: inside the disc the triangle 0 p q,
+// with integral of 1: A = cross(p, q)/2, and of d^2: A (p.p + p.q + q.q)/6; outside the disc the
+// circular sector of the same angle. In double: differences of large triangles must be exact
+// enough for slivers. Pure.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "estimators/free_region.h"
+
+namespace octolux {
+
+namespace {
+
+struct Point {
+  double x = 0, y = 0;
+};
+Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
+Point mix(Point a, Point b, double t) { return {a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t}; }
+double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
+double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
+
+/// A convex polygon of few corners.
+struct Polygon {
+  std::array<Point, 3 + PhotonRegion::kLines> corners;
+  int count = 0;
+
+  void add(Point p) { corners[static_cast<std::size_t>(count++)] = p; }
+};
+
+Polygon clip(const Polygon& polygon, HalfPlane line) {
+  const auto outside = [&](Point p) { return line.a.x * p.x + line.a.y * p.y - line.c; };
+  Polygon result;
+  for (int i = 0; i < polygon.count; ++i) {
+    const Point p = polygon.corners[i];
+    const Point q = polygon.corners[(i + 1) % polygon.count];
+    const double dp = outside(p), dq = outside(q);
+    if (dp <= 0) result.add(p);
+    if ((dp < 0 && dq > 0) || (dp > 0 && dq < 0)) result.add(mix(p, q, dp / (dp - dq)));
+  }
+  return result;
+}
+
+/// Between the origin and the segment p q, which is inside the unit disc.
+double triangle(Point p, Point q, double taper) {
+  return 0.5 * cross(p, q) * (1 - taper / 6 * (dot(p, p) + dot(p, q) + dot(q, q)));
+}
+
+/// The sector of the unit disc from p to q.
+double arc(Point p, Point q, double taper) {
+  return std::atan2(cross(p, q), dot(p, q)) * (0.5 - 0.25 * taper);
+}
+
+/// The part of the unit disc between the origin and the segment p q.
+double between(Point p, Point q, double taper) {
+  const Point d = q - p;
+  const double a = dot(d, d), b = dot(p, d), c = dot(p, p) - 1;
+  if (!(a > 0)) return 0;
+  const double root = b * b - a * c;
+  if (!(root > 0)) return arc(p, q, taper);
+  const double enter = std::clamp((-b - std::sqrt(root)) / a, 0.0, 1.0);
+  const double leave = std::clamp((-b + std::sqrt(root)) / a, 0.0, 1.0);
+  if (!(enter < leave)) return arc(p, q, taper);
+  const Point in = mix(p, q, enter), out = mix(p, q, leave);
+  return arc(p, in, taper) + triangle(in, out, taper) + arc(out, q, taper);
+}
+
+}  // namespace
+
+double sector_integral(const PhotonRegion::Sector& sector, int index, float h, float taper) {
+  // A triangle that covers the sector of the unit disc: its far side touches the circle.
+  static const double kFar = 1 / std::cos(std::numbers::pi / 8);
+  const double from = index * std::numbers::pi / 4;
+  const double to = from + std::numbers::pi / 4;
+  Polygon polygon;
+  polygon.add({0, 0});
+  polygon.add({kFar * std::cos(from), kFar * std::sin(from)});
+  polygon.add({kFar * std::cos(to), kFar * std::sin(to)});
+  for (int i = 0; i < PhotonRegion::kLines; ++i) {
+    const HalfPlane line = sector.line(i);
+    if (line.c >= h) continue;
+    polygon = clip(polygon, {line.a, line.c / h});
+  }
+  double sum = 0;
+  for (int i = 0; i < polygon.count; ++i) {
+    sum += between(polygon.corners[i], polygon.corners[(i + 1) % polygon.count], taper);
+  }
+  return sum * h * h;
+}
+
+}  // namespace octolux
