@@ -80,7 +80,8 @@ void verify(const RayCaster& caster, const FeelerQuery& query, const TangentPlan
   for (int i = 0; i < query.feelers; ++i) {
     if (settled(gaps[i], query.length)) continue;
     gaps[i].cut = must_cut(gaps[i]);
-    targets[i] = target(gaps[i], query.length) * kShort;
+    const Vec2 inwards = (gaps[i].a.line.a + gaps[i].b.line.a) * (-2 * plane.lift);
+    targets[i] = target(gaps[i], query.length) * kShort + inwards;
     lanes |= 1u << i;
     const Vec2 way = targets[i] - start;
     const float size = length(way);
