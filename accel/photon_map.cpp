@@ -110,6 +110,23 @@ std::span<const Neighbour> PhotonMap::within(const PhotonQuery& query,
   return within_in(Inside{*query.region, query.position}, query, buffer);
 }
 
+float PhotonMap::rough_distance(Vec3 position, std::size_t k) const {
+  PhotonTreeWalk walk(tree_, position);
+  const std::uint32_t b = walk.next<PhotonTreeWalk::Order::nearest_first>(kInfinity);
+  if (b == PhotonTreeWalk::kEnd) return kInfinity;
+  float sum = 0;
+  float count = 0;
+  for (std::uint32_t lane = 0; lane < PhotonTree::kBlockSize; ++lane) {
+    const float d2 = length2(tree_.position(b * PhotonTree::kBlockSize + lane) - position);
+    if (!(d2 < kInfinity)) continue;
+    sum += d2;
+    ++count;
+  }
+  // Two random points of a square leaf are at a mean squared distance of a third of its area.
+  const float area = 3 * sum / count;
+  return std::sqrt(area * (static_cast<float>(k) / count) * kInvPi);
+}
+
 template <class Region>
 std::span<const Neighbour> PhotonMap::nearest_in(Region region, const PhotonQuery& query,
                                                  std::size_t k, NeighbourBuffer& buffer) const {
@@ -131,8 +148,8 @@ std::span<const Neighbour> PhotonMap::nearest_in(Region region, const PhotonQuer
     const BlockDistances block(tree_.block(b), query, squash);
     for (std::uint32_t lane = 0; lane < PhotonTree::kBlockSize; ++lane) {
       const std::uint32_t photon = b * PhotonTree::kBlockSize + lane;
-      if (!(block.distance2[lane] < limit) || !region.contains(tree_.position(photon)) ||
-          !counts(payloads_[photon])) {
+      if (!(block.distance2[lane] < limit) || !counts(payloads_[photon]) ||
+          !region.contains(tree_.position(photon))) {
         continue;
       }
       items[count++] = {block.distance2[lane], photon};
@@ -163,8 +180,8 @@ std::span<const Neighbour> PhotonMap::within_in(Region region, const PhotonQuery
     const BlockDistances block(tree_.block(b), query, squash);
     for (std::uint32_t lane = 0; lane < PhotonTree::kBlockSize; ++lane) {
       const std::uint32_t photon = b * PhotonTree::kBlockSize + lane;
-      if (!(block.distance2[lane] < limit) || !region.contains(tree_.position(photon)) ||
-          !counts(payloads_[photon])) {
+      if (!(block.distance2[lane] < limit) || !counts(payloads_[photon]) ||
+          !region.contains(tree_.position(photon))) {
         continue;
       }
       buffer.items.push_back({block.distance2[lane], photon});

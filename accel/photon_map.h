@@ -57,6 +57,11 @@ class PhotonMap {
   /// All photons that count at a distance below query.max_radius, in the map's order.
   std::span<const Neighbour> within(const PhotonQuery& query, NeighbourBuffer& buffer) const;
 
+  /// A guess at the distance of the k-th photon, from the leaf at `position` alone, whether its
+  /// photons count or not: right within a small factor where the density is even. Not 0 unless
+  /// photons coincide; infinite for an empty map.
+  float rough_distance(Vec3 position, std::size_t k) const;
+
   std::size_t size() const { return payloads_.size(); }
   std::size_t rejected() const { return rejected_; }
   /// Bytes held, tree included.

@@ -149,6 +149,14 @@ void FreeRegion::add(int sector, int slot, HalfPlane line) {
   clearance_ = std::min(clearance_, line.c);
 }
 
+float FreeRegion::extent() const {
+  float extent = 0;
+  for (int i = 0; i < PhotonRegion::kSectors && extent < reach_; ++i) {
+    extent = std::max(extent, sector_extent(region_.sectors[i], i, reach_));
+  }
+  return extent < reach_ ? extent : kInfinity;
+}
+
 double FreeRegion::integral(float h, float taper) const {
   double sum = 0;
   for (int i = 0; i < PhotonRegion::kSectors; ++i) {

@@ -31,6 +31,8 @@ class FreeRegion {
   /// No boundary is closer than this [m].
   float clearance() const { return clearance_; }
 
+  /// Nothing of R is farther than this [m], if that is less than the reach; infinite if not.
+  float extent() const;
   /// Integral over R and the disc of radius h of 1 - taper d^2/h^2 [m^2].
   double integral(float h, float taper) const;
 
@@ -45,6 +47,9 @@ class FreeRegion {
 /// The paper's filter: the OctoBox (with 4 feelers the box) whose sides are as far away as the
 /// feelers in fixed directions got, at right angles to them. No planes, no edges, no turn.
 PhotonRegion feeler_box(const RayCaster& caster, const FeelerQuery& query);
+
+/// Distance of the farthest point of a sector, at most `limit` (where it may go on).
+float sector_extent(const PhotonRegion::Sector& sector, int index, float limit);
 
 /// Integral of 1 - taper d^2/h^2 over the part of a sector (0 to 7) within the disc of radius h.
 double sector_integral(const PhotonRegion::Sector& sector, int index, float h, float taper);

@@ -29,7 +29,7 @@ class Region final : public Estimator {
     if (found.disc.empty()) return {};
     const float h = std::sqrt(found.disc.h2);
     const double whole = std::numbers::pi * (1 - 0.5 * kTaper) * found.disc.h2;
-    double area = found.whole ? whole : found.region.integral(h, kTaper);
+    double area = found.whole() ? whole : found.region.integral(h, kTaper);
     if (!(area > kNothing * whole)) {
       found.disc = find_disc(at, map, bandwidth, config_.neighbours, buffer);
       if (found.disc.empty()) return {};

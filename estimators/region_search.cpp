@@ -7,9 +7,9 @@ namespace octolux {
 
 namespace {
 
-/// How far beyond the plain look-up the first feelers see. A corner's quarter disc holds its n
-/// photons within twice the radius of the whole disc.
-constexpr float kMargin = 2;
+/// Length of the first feelers, in units of the guess. Longer ones meet more and cost more in the
+/// open; shorter ones must more often be followed by others near walls.
+constexpr float kMargin = 1.5f;
 
 FeelerQuery feeler_query(const GatherPoint& at, const RegionConfig& config, float reach) {
   FeelerQuery query;
@@ -33,31 +33,35 @@ float search_limit(const GatherPoint& at, const Bandwidth& bandwidth) {
 
 RegionDisc find_in_region(const GatherPoint& at, const PhotonMap& map, const Bandwidth& bandwidth,
                           const RegionConfig& config, NeighbourBuffer& buffer) {
-  RegionDisc result{find_disc(at, map, bandwidth, config.neighbours, buffer),
-                    FreeRegion(at.at.facing_normal()), true};
-  if (at.caster == nullptr || result.disc.empty()) return result;
-  const std::size_t wanted = static_cast<std::size_t>(config.neighbours) + 1;
-  const float limit = search_limit(at, bandwidth);
-  const float scale = std::min(limit, std::sqrt(result.disc.h2) / bandwidth.shrink);
-  PhotonQuery query = photon_query(at, bandwidth);
-  for (float reach = std::min(limit, kMargin * scale); reach > 0;
-       reach = std::min(limit, 2 * reach)) {
-    result.region = FreeRegion(*at.caster, feeler_query(at, config, reach));
-    if (result.whole && result.region.clearance() >= scale) return result;
-    result.whole = false;
-    query.region = &result.region.photons();
-    query.max_radius = reach;
-    std::span<const Neighbour> found = map.nearest(query, wanted, buffer);
-    if (found.size() < wanted && reach < limit) continue;
-    float h2 = reach * reach;
-    if (found.size() == wanted) {
-      h2 = found.back().distance2;
-      found = found.first(found.size() - 1);
-    }
-    h2 *= bandwidth.shrink * bandwidth.shrink;
-    result.disc = {found, h2 >= std::numeric_limits<float>::min() ? h2 : 0};
+  RegionDisc result{{}, FreeRegion(at.at.facing_normal())};
+  if (at.caster == nullptr) {
+    result.disc = find_disc(at, map, bandwidth, config.neighbours, buffer);
     return result;
   }
+  const std::size_t wanted = static_cast<std::size_t>(config.neighbours) + 1;
+  const float limit = search_limit(at, bandwidth);
+  PhotonQuery query = photon_query(at, bandwidth);
+  float reach = kMargin * map.rough_distance(query.position, wanted);
+  if (!(reach > 0)) reach = limit;
+  for (;; reach *= 2) {
+    reach = std::min(reach, limit);
+    if (!(reach > 0)) return result;
+    result.region = FreeRegion(*at.caster, feeler_query(at, config, reach));
+    query.region = &result.region.photons();
+    query.max_radius = reach;
+    const std::span<const Neighbour> found = map.nearest(query, wanted, buffer);
+    if (found.size() == wanted) {
+      result.disc = {found.first(found.size() - 1), found.back().distance2};
+      break;
+    }
+    const float all = std::min(result.region.extent(), limit);
+    if (reach < all) continue;
+    result.disc = {found, all * all};
+    break;
+  }
+  Disc& disc = result.disc;
+  disc.h2 *= bandwidth.shrink * bandwidth.shrink;
+  if (!(disc.h2 >= std::numeric_limits<float>::min())) disc.h2 = 0;
   return result;
 }
 

@@ -1,11 +1,13 @@
 // The n photons nearest to a query among those in its free region (free_region.h).
 //
-// Feelers need a length before the look-up, and the look-up needs the region the feelers give. So a
-// look-up without a region tells the scale r; feelers twice as long follow. Where they meet nothing
-// within r, the photons found are those of the region, too, and the look-up is done: that is exact,
-// and most queries end there. Elsewhere photons are looked up in the region, as far as it is known;
-// if that holds too few of them, everything is done again at twice the scale. The last scale is
-// max_radius or the size of the scene. So n photons stay n, and h is the distance of the next.
+// Feelers need a length before the look-up, and the look-up needs the region the feelers give. So
+// the leaf of the photon map at the query says how dense photons are there, feelers go a few times
+// as far as n photons should reach, and photons are looked up in the region as far as it is known.
+// If that holds too few of them, both are done again at twice the length, until the region ends on
+// all sides (a chair's leg), or up to max_radius or the size of the scene. So n photons stay n, and
+// h is the distance of the next. The guess decides how
+// much work there is and how much of the free surface is recognised as such, never what is counted
+// on it: that is, for constant irradiance it cannot bias anything.
 #pragma once
 
 #include "estimators/disc_search.h"
@@ -23,7 +25,7 @@ struct RegionConfig {
 struct RegionDisc {
   Disc disc;
   FreeRegion region;
-  bool whole = true;  // is the disc within the region?
+  bool whole() const { return region.clearance() * region.clearance() >= disc.h2; }
 };
 
 /// The spans point into `buffer`.

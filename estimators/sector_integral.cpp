@@ -68,10 +68,8 @@ double between(Point p, Point q, double taper) {
   return arc(p, in, taper) + triangle(in, out, taper) + arc(out, q, taper);
 }
 
-}  // namespace
-
-double sector_integral(const PhotonRegion::Sector& sector, int index, float h, float taper) {
-  // A triangle that covers the sector of the unit disc: its far side touches the circle.
+/// The sector in units of `unit`, cut off outside the unit disc by the tangent in its middle.
+Polygon polygon_of(const PhotonRegion::Sector& sector, int index, float unit) {
   static const double kFar = 1 / std::cos(std::numbers::pi / 8);
   const double from = index * std::numbers::pi / 4;
   const double to = from + std::numbers::pi / 4;
@@ -81,14 +79,29 @@ double sector_integral(const PhotonRegion::Sector& sector, int index, float h, f
   polygon.add({kFar * std::cos(to), kFar * std::sin(to)});
   for (int i = 0; i < PhotonRegion::kLines; ++i) {
     const HalfPlane line = sector.line(i);
-    if (line.c >= h) continue;
-    polygon = clip(polygon, {line.a, line.c / h});
+    if (line.c < unit) polygon = clip(polygon, {line.a, line.c / unit});
   }
+  return polygon;
+}
+
+}  // namespace
+
+double sector_integral(const PhotonRegion::Sector& sector, int index, float h, float taper) {
+  const Polygon polygon = polygon_of(sector, index, h);
   double sum = 0;
   for (int i = 0; i < polygon.count; ++i) {
     sum += between(polygon.corners[i], polygon.corners[(i + 1) % polygon.count], taper);
   }
   return sum * h * h;
+}
+
+float sector_extent(const PhotonRegion::Sector& sector, int index, float limit) {
+  const Polygon polygon = polygon_of(sector, index, limit);
+  double farthest2 = 0;
+  for (int i = 0; i < polygon.count; ++i) {
+    farthest2 = std::max(farthest2, dot(polygon.corners[i], polygon.corners[i]));
+  }
+  return limit * static_cast<float>(std::sqrt(std::min(farthest2, 1.0)));
 }
 
 }  // namespace octolux
