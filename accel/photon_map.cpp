@@ -6,6 +6,7 @@
 #include "accel/photon_map.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -17,30 +18,40 @@ namespace octolux {
 namespace {
 
 constexpr std::int64_t kChunk = 16384;
+constexpr int kSelectionSteps = 6;
 
 bool is_usable(const Photon& p) {
   return is_finite(p.position) && is_finite(p.wi) && is_finite(p.normal) && is_finite(p.flux) &&
          p.flux.r >= 0 && p.flux.g >= 0 && p.flux.b >= 0;
 }
 
-std::vector<PhotonTree::Item> usable_items(const std::vector<Photon>& photons) {
-  const auto count = static_cast<std::int64_t>(photons.size());
-  std::vector<std::size_t> start(static_cast<std::size_t>((count + kChunk - 1) / kChunk) + 1, 0);
-  parallel_for_chunks(count, kChunk, [&](std::int64_t c, std::int64_t begin, std::int64_t end) {
-    start[c + 1] = static_cast<std::size_t>(
-        std::count_if(photons.begin() + begin, photons.begin() + end, is_usable));
-  });
-  for (std::size_t c = 1; c < start.size(); ++c) start[c] += start[c - 1];
-  std::vector<PhotonTree::Item> items(start.back());
-  parallel_for_chunks(count, kChunk, [&](std::int64_t c, std::int64_t begin, std::int64_t end) {
-    std::size_t next = start[c];
-    for (std::int64_t i = begin; i < end; ++i) {
-      if (!is_usable(photons[i])) continue;
-      items[next++] = {photons[i].position, static_cast<std::uint32_t>(i)};
-    }
-  });
-  return items;
-}
+/// The usable photons in their given order, for the tree to sort. Payloads are packed before they
+/// are put into the tree's order, because they are half as long then.
+struct Usable {
+  std::vector<PhotonTree::Item> items;
+  std::vector<PhotonPayload> payloads;
+
+  explicit Usable(std::span<const Photon> photons) {
+    const auto count = static_cast<std::int64_t>(photons.size());
+    std::vector<std::size_t> start(static_cast<std::size_t>((count + kChunk - 1) / kChunk) + 1, 0);
+    parallel_for_chunks(count, kChunk, [&](std::int64_t c, std::int64_t begin, std::int64_t end) {
+      start[c + 1] = static_cast<std::size_t>(
+          std::count_if(photons.begin() + begin, photons.begin() + end, is_usable));
+    });
+    for (std::size_t c = 1; c < start.size(); ++c) start[c] += start[c - 1];
+    items.resize(start.back());
+    payloads.resize(start.back());
+    parallel_for_chunks(count, kChunk, [&](std::int64_t c, std::int64_t begin, std::int64_t end) {
+      std::size_t next = start[c];
+      for (std::int64_t i = begin; i < end; ++i) {
+        if (!is_usable(photons[i])) continue;
+        payloads[next] = pack(photons[i]);
+        items[next] = {photons[i].position, static_cast<std::uint32_t>(next)};
+        ++next;
+      }
+    });
+  }
+};
 
 /// Squared distances of a block's photons, in the squashed metric.
 struct BlockDistances {
@@ -75,22 +86,65 @@ float squash_factor(const PhotonQuery& query) {
   return query.squash * query.squash - 1;
 }
 
-/// Keeps the k best of `count` candidates, the farthest last.
-void keep_best(Neighbour* items, std::size_t k, std::size_t count) {
-  std::nth_element(items, items + k - 1, items + count);
+std::size_t count_below(const Neighbour* items, std::size_t count, float limit) {
+  std::size_t below = 0;
+  for (std::size_t i = 0; i < count; ++i) below += items[i].distance2 < limit ? 1 : 0;
+  return below;
+}
+
+float largest_distance2(const Neighbour* items, std::size_t count) {
+  std::uint32_t bits = 0;  // floats that are not negative compare as their bits do
+  for (std::size_t i = 0; i < count; ++i) {
+    bits = std::max(bits, std::bit_cast<std::uint32_t>(items[i].distance2));
+  }
+  return std::bit_cast<float>(bits);
+}
+
+/// Moves the items below `limit` to the front, without a branch.
+void keep_below(Neighbour* items, std::size_t count, float limit) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Neighbour item = items[i];
+    items[kept] = item;
+    kept += item.distance2 < limit ? 1 : 0;
+  }
+}
+
+/// Moves the k best of `count` > k candidates to the front. Returns a limit they are all below, and
+/// no photon that is among the k best of all is at or above it.
+float keep_best(Neighbour* items, std::size_t k, std::size_t count) {
+  float low = 0, high = std::nextafter(largest_distance2(items, count), kInfinity);
+  std::size_t below_low = 0, below_high = count;
+  for (int i = 0; i < kSelectionSteps && below_high > k; ++i) {
+    const float part =
+        (static_cast<float>(k - below_low) + 0.5f) / static_cast<float>(below_high - below_low);
+    const float middle = low + (high - low) * std::min(part, 0.99f);
+    const std::size_t below = count_below(items, count, middle);
+    (below < k ? low : high) = middle;
+    (below < k ? below_low : below_high) = below;
+  }
+  keep_below(items, count, high);
+  if (below_high > k) {
+    std::nth_element(items, items + k - 1, items + below_high);
+    high = std::nextafter(items[k - 1].distance2, kInfinity);
+  }
+  return high;
 }
 
 }  // namespace
 
 PhotonMap::PhotonMap(std::vector<Photon> photons) {
   OCTOLUX_CHECK(photons.size() < (std::uint64_t{1} << 32));
-  std::vector<PhotonTree::Item> items = usable_items(photons);
-  rejected_ = photons.size() - items.size();
-  tree_ = PhotonTree(items);
-  payloads_.resize(items.size());
-  const auto count = static_cast<std::int64_t>(items.size());
+  Usable usable(photons);
+  rejected_ = photons.size() - usable.items.size();
+  photons = {};
+  tree_ = PhotonTree(usable.items);
+  payloads_.resize(usable.items.size());
+  const auto count = static_cast<std::int64_t>(usable.items.size());
   parallel_for_chunks(count, kChunk, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i < end; ++i) payloads_[i] = pack(photons[items[i].index]);
+    for (std::int64_t i = begin; i < end; ++i) {
+      payloads_[i] = usable.payloads[usable.items[i].index];
+    }
   });
 }
 
@@ -132,7 +186,7 @@ std::span<const Neighbour> PhotonMap::nearest_in(Region region, const PhotonQuer
                                                  std::size_t k, NeighbourBuffer& buffer) const {
   k = std::min(k, size());
   if (k == 0) return {};
-  const std::size_t full = 2 * k + PhotonTree::kBlockSize;
+  const std::size_t full = k + k / 2 + PhotonTree::kBlockSize;
   if (buffer.items.size() < full + PhotonTree::kBlockSize) {
     buffer.items.resize(full + PhotonTree::kBlockSize);
   }
@@ -155,9 +209,8 @@ std::span<const Neighbour> PhotonMap::nearest_in(Region region, const PhotonQuer
       items[count++] = {block.distance2[lane], photon};
     }
     if (count >= full) {
-      keep_best(items, k, count);
+      limit = keep_best(items, k, count);
       count = k;
-      limit = std::nextafter(items[k - 1].distance2, kInfinity);
     }
   }
   if (count > k) keep_best(items, k, count);

@@ -66,7 +66,7 @@ Target find_target(const ocio::Config& config, const DisplayOptions& options) {
   }
   if (target.view.empty()) target.view = config.getDefaultView(display);
   if (std::find(views.begin(), views.end(), target.view) == views.end()) {
-    throw Error(unknown_name("view of display '" + target.display + "'", target.view, views));
+    throw Error("display '" + target.display + "': " + unknown_name("view", target.view, views));
   }
   return target;
 }

@@ -1,10 +1,7 @@
-// Pixel reconstruction filters. A filter is sampled, not splatted: each eye sample belongs to one
-// pixel and starts at an offset drawn from the filter, so pixels stay independent and per-pixel
-// variance means something (Ernst et al. 2006). All our filters are positive, so weights are 1.
-// Profiles are Mitsuba's; in two dimensions each is a product of two.
+// Pixel reconstruction filters. Profiles are Mitsuba's; in two dimensions each is a product of two.
+// Every eye sample counts in all pixels its filter reaches, which for the wider filters is worth
+// two to three times as many samples. All our filters are positive.
 #pragma once
-
-#include "core/vec.h"
 
 namespace octolux {
 
@@ -14,8 +11,12 @@ struct Filter {
   float radius = 2;     // [pixels] of box (Mitsuba: 0.5) and tent (Mitsuba: 1)
   float stddev = 0.5f;  // [pixels] of the gaussian, which ends at 4 standard deviations
 
-  /// Offset from the pixel's centre [pixels], distributed as the filter. u uniform in [0, 1)^2.
-  Vec2 sample(Vec2 u) const;
+  /// Half of the filter's width [pixels].
+  float reach() const { return kind == Kind::gaussian ? 4 * stddev : radius; }
+
+  /// Weight, not normalised, of a sample at distance `x` [pixels] from a pixel's centre along one
+  /// axis. The box is half open, so that samples on its border belong to one pixel.
+  float profile(float x) const;
 };
 
 }  // namespace octolux

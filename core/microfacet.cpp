@@ -107,7 +107,7 @@ Vec3 Microfacet::sample_visible(Vec3 wo, Vec2 u) const {
   const Vec3 w = normalize({alpha_u_ * wo.x, alpha_v_ * wo.y, wo.z});
   if (kind_ == MicrofacetKind::ggx) {
     const Vec3 m = sample_ggx_hemisphere(w, u);
-    return normalize({alpha_u_ * m.x, alpha_v_ * m.y, m.z});
+    return normalize({alpha_u_ * m.x, alpha_v_ * m.y, std::max(0.0f, m.z)});
   }
   const Vec2 slope = sample_beckmann_slopes(w.z, u);
   const float s = std::sqrt(w.x * w.x + w.y * w.y);

@@ -22,6 +22,8 @@ class Microfacet {
         alpha_u_(std::max(alpha_u, kMinimumAlpha)),
         alpha_v_(std::max(alpha_v, kMinimumAlpha)) {}
 
+  MicrofacetKind kind() const { return kind_; }
+
   /// Density D(m) of the area of microfacets over the area of the surface [sr^-1].
   float d(Vec3 m) const;
 

@@ -2,7 +2,7 @@
 // direction: what the layer below a rough coat receives. Computed at construction by Gauss-Legendre
 // quadrature over the unit square that Microfacet::sample_visible maps to normals.
 //
-// The nodes, the 64 equidistant cosines and the linear interpolation are those of Mitsuba 3's
+// The warp, the 64 equidistant cosines and the linear interpolation are those of Mitsuba 3's
 // `roughplastic`, whose pictures ours are held against. Immutable, so thread-safe.
 #pragma once
 

@@ -5,6 +5,8 @@
 // cover what the ray caster makes of the next ray (see core/ray.h). Stateless, so thread-safe.
 #include "core/shape.h"
 
+#include <algorithm>
+
 #include "core/quadric.h"
 #include "core/ray.h"
 #include "core/vec3d.h"
@@ -14,10 +16,30 @@ namespace {
 
 using Corners = std::array<std::uint32_t, 3>;
 
-/// Perpendicular to the triangle, anticlockwise side; twice its area long.
-Vec3d double_area_vector(const TriangleMesh& mesh, const Corners& corner) {
-  const Vec3d p0(mesh.positions[corner[0]]);
-  return cross(Vec3d(mesh.positions[corner[1]]) - p0, Vec3d(mesh.positions[corner[2]]) - p0);
+/// A triangle's edges from its first corner; `face` is perpendicular, on the anticlockwise side,
+/// and twice its area long.
+struct Edges {
+  Vec3d a, b, face;
+
+  Edges(const TriangleMesh& mesh, const Corners& corner)
+      : a(Vec3d(mesh.positions[corner[1]]) - Vec3d(mesh.positions[corner[0]])),
+        b(Vec3d(mesh.positions[corner[2]]) - Vec3d(mesh.positions[corner[0]])),
+        face(cross(a, b)) {}
+};
+
+/// Error [m] of Embree's distance from a triangle's plane, for rays that start near it. Its normal
+/// is the cross product of the two shorter edges e, f, in float: the direction errs by about
+/// 2^-24 |e||f| / (2 area), and the third edge g is the lever. |e||f||g| / (2 area) is the diameter
+/// of the circumscribed circle: about the longest edge for a triangle of good shape, far more for a
+/// sliver. Measured at twice that; limited, so that a needle does not throw rays far away.
+double plane_error(const Edges& edges) {
+  const Vec3d c = edges.b - edges.a;
+  const double a2 = dot(edges.a, edges.a), b2 = dot(edges.b, edges.b), c2 = dot(c, c);
+  const double longest = std::sqrt(std::max(a2, std::max(b2, c2)));
+  const double twice_area = length(edges.face);
+  const double diameter = std::sqrt(a2 * b2) * std::sqrt(c2) / twice_area;
+  constexpr double kMaxRatio = 512;
+  return 2 * 0x1p-24 * (diameter < kMaxRatio * longest ? diameter : kMaxRatio * longest);
 }
 
 template <typename T>
@@ -27,8 +49,8 @@ auto interpolate(const std::vector<T>& values, const Corners& corner, float u, f
 
 /// Sets ng and ns: the vertex normals decide which side is the front, and are dropped where they
 /// are useless.
-void set_normals(const TriangleMesh& mesh, const Corners& corner, Vec2 b, SurfacePoint& point) {
-  const Vec3d face = double_area_vector(mesh, corner);
+void set_normals(const TriangleMesh& mesh, const Corners& corner, Vec3d face, Vec2 b,
+                 SurfacePoint& point) {
   if (mesh.normals.empty()) {
     point.ng = point.ns = unit_or(face, {0, 0, 1});
     return;
@@ -49,13 +71,13 @@ SurfacePoint surface_point(const TriangleMesh& mesh, std::uint32_t primitive, fl
   const Vec3 p0 = mesh.positions[corner[0]];
   const Vec3 p1 = mesh.positions[corner[1]];
   const Vec3 p2 = mesh.positions[corner[2]];
+  const Edges edges(mesh, corner);
   SurfacePoint point;
   point.primitive = primitive;
-  const Vec3d origin(p0);
-  point.position =
-      to_float(origin + (Vec3d(p1) - origin) * u + (Vec3d(p2) - origin) * static_cast<double>(v));
-  point.error = position_error_bound(max(abs(p0), max(abs(p1), abs(p2))));
-  set_normals(mesh, corner, {u, v}, point);
+  point.position = to_float(Vec3d(p0) + edges.a * u + edges.b * v);
+  point.error = position_error_bound(max(abs(p0), max(abs(p1), abs(p2)))) +
+                static_cast<float>(plane_error(edges));
+  set_normals(mesh, corner, edges.face, {u, v}, point);
   point.uv = mesh.uvs.empty() ? Vec2{u, v} : interpolate(mesh.uvs, corner, u, v);
   return point;
 }
@@ -74,7 +96,7 @@ double area(const Shape& shape) {
   if (const auto* quadric = std::get_if<Quadric>(&shape.geometry)) return area(*quadric);
   const auto& mesh = std::get<TriangleMesh>(shape.geometry);
   double sum = 0;
-  for (const Corners& corner : mesh.triangles) sum += length(double_area_vector(mesh, corner)) / 2;
+  for (const Corners& corner : mesh.triangles) sum += length(Edges(mesh, corner).face) / 2;
   return sum;
 }
 

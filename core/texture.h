@@ -43,7 +43,7 @@ enum class TextureFilter { nearest, bilinear };
 enum class TextureWrap { repeat, mirror, clamp };  // outside the unit square
 
 struct BitmapConfig {
-  Affine to_uv;  // applied to (u, v, 1) before the look-up; the third component is dropped
+  Affine to_uv{};  // applied to (u, v, 1) before the look-up; the third component is dropped
   TextureFilter filter = TextureFilter::bilinear;
   TextureWrap wrap = TextureWrap::repeat;
 };

@@ -13,8 +13,7 @@ struct Cone {
 
 std::unique_ptr<Estimator> make_cone(const EstimatorConfig& config) {
   const float inv_slope = 1 / config.cone_slope;
-  return std::make_unique<Radial<Cone>>(config.neighbours,
-                                        Cone{inv_slope, kInvPi / (1 - 2 * inv_slope / 3)});
+  return std::make_unique<Radial<Cone>>(config, Cone{inv_slope, kInvPi / (1 - 2 * inv_slope / 3)});
 }
 
 }  // namespace octolux

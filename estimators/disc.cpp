@@ -3,14 +3,8 @@
 
 namespace octolux {
 
-namespace {
-struct Flat {
-  float k(float /*s*/) const { return kInvPi; }
-};
-}  // namespace
-
 std::unique_ptr<Estimator> make_disc(const EstimatorConfig& config) {
-  return std::make_unique<Radial<Flat>>(config.neighbours, Flat{});
+  return std::make_unique<Radial<FlatKernel>>(config, FlatKernel{});
 }
 
 }  // namespace octolux

@@ -11,23 +11,36 @@ namespace octolux {
 struct Disc {
   std::span<const Neighbour> photons;
   float h2 = 0;  // [m^2] square of the bandwidth
+  float r2 = 0;  // [m^2] the same without shrinking: all photons are nearer
   bool empty() const { return photons.empty() || h2 == 0; }
 };
 
+/// What bounds a disc of n photons: the (n+1)th, or, as published, the nth, which counts as well.
+enum class BandwidthRule { next, last };
+inline BandwidthRule bandwidth_rule(const EstimatorConfig& config) {
+  return config.correction ? BandwidthRule::next : BandwidthRule::last;
+}
+
+/// A bandwidth whose square is no normal number has no density: every photon is at the query.
+inline float usable_bandwidth2(float h2) {
+  return h2 >= std::numeric_limits<float>::min() && std::isfinite(h2) ? h2 : 0;
+}
+
 /// The disc of `neighbours` photons around the point. The span points into `buffer`.
 inline Disc find_disc(const GatherPoint& at, const PhotonMap& map, const Bandwidth& bandwidth,
-                      int neighbours, NeighbourBuffer& buffer) {
-  const std::size_t wanted = static_cast<std::size_t>(neighbours) + 1;
+                      int neighbours, NeighbourBuffer& buffer,
+                      BandwidthRule rule = BandwidthRule::next) {
+  const bool next = rule == BandwidthRule::next;
+  const std::size_t wanted = static_cast<std::size_t>(neighbours) + (next ? 1 : 0);
   std::span<const Neighbour> found = map.nearest(photon_query(at, bandwidth), wanted, buffer);
-  float h2 = bandwidth.max_radius * bandwidth.max_radius;
-  if (found.size() == wanted || !std::isfinite(h2)) {
+  float r2 = bandwidth.max_radius * bandwidth.max_radius;
+  if (found.size() == wanted || !std::isfinite(r2)) {
     if (found.empty()) return {};
-    h2 = found.back().distance2;
-    found = found.first(found.size() - 1);
+    r2 = found.back().distance2;
+    if (next) found = found.first(found.size() - 1);
+    if (!next && r2 > 0) r2 = std::nextafter(r2, kInfinity);  // so that the last one is nearer
   }
-  h2 *= bandwidth.shrink * bandwidth.shrink;
-  // A bandwidth whose square is no normal number has no density: every photon is at the query.
-  return {found, h2 >= std::numeric_limits<float>::min() ? h2 : 0};
+  return {found, usable_bandwidth2(r2 * (bandwidth.shrink * bandwidth.shrink)), r2};
 }
 
 }  // namespace octolux

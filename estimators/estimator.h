@@ -5,7 +5,8 @@
 // (n+1)th nearest photon, which is itself left out. Given r, the n nearer photons are uniform in
 // its disc, so the estimate is unbiased on a uniform plane at any n and any shrink in (0, 1]; where
 // r > max_radius it is the plain estimate at that radius (the two cases together are exactly
-// unbiased for Poisson photons).
+// unbiased for Poisson photons). With `correction` off r is, as published, the distance of the nth
+// photon, which counts as well.
 #pragma once
 
 #include <functional>
@@ -22,9 +23,11 @@ namespace octolux {
 
 struct EstimatorConfig {
   std::string kernel = "cone";
-  int neighbours = 50;   // n; the bandwidth is the distance of the next one
-  float cone_slope = 1;  // kappa >= 1 of the cone filter (Jensen)
-  int feelers = 8;       // geometry feelers: 8 or 4
+  int neighbours = 50;           // n; the bandwidth is the distance of the next one
+  float cone_slope = 1;          // kappa >= 1 of the cone filter (Jensen)
+  std::string octants = "auto";  // OctoBoxes: one, eight (one per octant), auto (as photons allow)
+  bool correction = true;        // false: as published, with the bias of finite photon counts
+  int feelers = 8;               // geometry feelers per look-up: 8 or 4
 };
 
 /// Where radiance is wanted.

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "estimators/sector_integral.h"
+
 namespace octolux {
 
 namespace {
@@ -157,13 +159,13 @@ float FreeRegion::extent() const {
   return extent < reach_ ? extent : kInfinity;
 }
 
-double FreeRegion::integral(float h, float taper) const {
+double FreeRegion::integral(float h, float taper, std::span<const HalfPlane> also) const {
   double sum = 0;
   for (int i = 0; i < PhotonRegion::kSectors; ++i) {
     const auto& c = region_.sectors[i].c;
-    const bool whole = *std::min_element(c.begin(), c.end()) >= h;
+    const bool whole = also.empty() && *std::min_element(c.begin(), c.end()) >= h;
     sum += whole ? std::numbers::pi / 8 * (1 - 0.5 * taper) * h * h
-                 : sector_integral(region_.sectors[i], i, h, taper);
+                 : sector_integral(region_.sectors[i], i, h, taper, also);
   }
   return sum;
 }

@@ -13,6 +13,8 @@
 // that vary. Paper: Tobler & Maierhofer 2006, section 4. Pure functions; thread-safe.
 #pragma once
 
+#include <span>
+
 #include "accel/photon_region.h"
 #include "estimators/feelers.h"
 
@@ -33,8 +35,9 @@ class FreeRegion {
 
   /// Nothing of R is farther than this [m], if that is less than the reach; infinite if not.
   float extent() const;
-  /// Integral over R and the disc of radius h of 1 - taper d^2/h^2 [m^2].
-  double integral(float h, float taper) const;
+  /// Integral over R, the disc of radius h and the half planes of `also` (in the axes of photons())
+  /// of 1 - taper d^2/h^2 [m^2].
+  double integral(float h, float taper, std::span<const HalfPlane> also = {}) const;
 
  private:
   void add(int sector, int slot, HalfPlane line);
@@ -47,11 +50,5 @@ class FreeRegion {
 /// The paper's filter: the OctoBox (with 4 feelers the box) whose sides are as far away as the
 /// feelers in fixed directions got, at right angles to them. No planes, no edges, no turn.
 PhotonRegion feeler_box(const RayCaster& caster, const FeelerQuery& query);
-
-/// Distance of the farthest point of a sector, at most `limit` (where it may go on).
-float sector_extent(const PhotonRegion::Sector& sector, int index, float limit);
-
-/// Integral of 1 - taper d^2/h^2 over the part of a sector (0 to 7) within the disc of radius h.
-double sector_integral(const PhotonRegion::Sector& sector, int index, float h, float taper);
 
 }  // namespace octolux

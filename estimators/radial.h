@@ -9,38 +9,46 @@
 
 namespace octolux {
 
+/// k = 1/pi: every photon within h counts the same.
+struct FlatKernel {
+  float k(float /*s*/) const { return kInvPi; }
+};
+
+/// The sum over a disc's photons: one sum of flux where f is constant, one call of f per photon
+/// elsewhere.
+template <class Kernel>
+Estimate radial_sum(const GatherPoint& at, const PhotonMap& map, const Disc& disc,
+                    const Kernel& kernel) {
+  const float inv_h2 = 1 / disc.h2;
+  const std::optional<Rgb> lambertian = at.at.lambertian();
+  Rgb total(0);
+  int count = 0;
+  for (const Neighbour& near : disc.photons) {
+    if (!(near.distance2 < disc.h2)) continue;
+    const Rgb flux = map.flux(near.photon) * kernel.k(near.distance2 * inv_h2);
+    total += lambertian ? flux : flux * at.at.f(map.wi(near.photon), Lobes::smooth);
+    ++count;
+  }
+  const Rgb scale = lambertian ? *lambertian * kInvPi : Rgb(1);
+  return {total * scale * inv_h2, std::sqrt(disc.h2), kPi * disc.h2, count};
+}
+
 template <class Kernel>
 class Radial final : public Estimator {
  public:
-  Radial(int neighbours, Kernel kernel) : neighbours_(neighbours), kernel_(kernel) {}
+  Radial(const EstimatorConfig& config, Kernel kernel)
+      : neighbours_(config.neighbours), rule_(bandwidth_rule(config)), kernel_(kernel) {}
 
   Estimate estimate(const GatherPoint& at, const PhotonMap& map,
                     const Bandwidth& bandwidth) const override {
     thread_local NeighbourBuffer buffer;
-    const Disc disc = find_disc(at, map, bandwidth, neighbours_, buffer);
-    if (disc.empty()) return {};
-    return sum(at, map, disc);
+    const Disc disc = find_disc(at, map, bandwidth, neighbours_, buffer, rule_);
+    return disc.empty() ? Estimate{} : radial_sum(at, map, disc, kernel_);
   }
 
  private:
-  /// One sum of flux where f is constant, one call of f per photon elsewhere.
-  Estimate sum(const GatherPoint& at, const PhotonMap& map, const Disc& disc) const {
-    const float inv_h2 = 1 / disc.h2;
-    const std::optional<Rgb> lambertian = at.at.lambertian();
-    Rgb total(0);
-    int count = 0;
-    for (const Neighbour& near : disc.photons) {
-      const float s = near.distance2 * inv_h2;
-      if (!(s < 1)) continue;
-      const Rgb flux = map.flux(near.photon) * kernel_.k(s);
-      total += lambertian ? flux : flux * at.at.f(map.wi(near.photon), Lobes::smooth);
-      ++count;
-    }
-    const Rgb scale = lambertian ? *lambertian * kInvPi : Rgb(1);
-    return {total * scale * inv_h2, std::sqrt(disc.h2), kPi * disc.h2, count};
-  }
-
   int neighbours_;
+  BandwidthRule rule_;
   Kernel kernel_;
 };
 

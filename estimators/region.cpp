@@ -8,6 +8,7 @@
 // between the flat kernel (0), whose variance on the open plane is least, 1/n, and Epanechnikov's
 // (1), whose bias in a given disc is least: with a = 0.8 the standard deviation is
 // sqrt((1 - a + a^2/3) / (1 - a/2)^2) = 1.07 times that of the flat one. Immutable, thread-safe.
+#include "estimators/radial.h"
 #include "estimators/region_search.h"
 
 namespace octolux {
@@ -15,8 +16,14 @@ namespace octolux {
 namespace {
 
 constexpr float kTaper = 0.8f;
+constexpr float kVolume = 1 - 0.5f * kTaper;  // mean of K over the disc
 /// Below this share of the disc there is no region to speak of: a query inside a wall.
 constexpr double kNothing = 1e-6;
+
+/// K, normalised over the whole disc.
+struct Tapered {
+  float k(float s) const { return (1 - kTaper * s) * (kInvPi / kVolume); }
+};
 
 class Region final : public Estimator {
  public:
@@ -25,35 +32,25 @@ class Region final : public Estimator {
   Estimate estimate(const GatherPoint& at, const PhotonMap& map,
                     const Bandwidth& bandwidth) const override {
     thread_local NeighbourBuffer buffer;
-    RegionDisc found = find_in_region(at, map, bandwidth, config_, buffer);
+    const RegionDisc found = find_in_region(at, map, bandwidth, config_, buffer);
     if (found.disc.empty()) return {};
-    const float h = std::sqrt(found.disc.h2);
-    const double whole = std::numbers::pi * (1 - 0.5 * kTaper) * found.disc.h2;
-    double area = found.whole() ? whole : found.region.integral(h, kTaper);
-    if (!(area > kNothing * whole)) {
-      found.disc = find_disc(at, map, bandwidth, config_.neighbours, buffer);
-      if (found.disc.empty()) return {};
-      area = std::numbers::pi * (1 - 0.5 * kTaper) * found.disc.h2;
+    const double share = found.whole() ? 1 : share_of_disc(found);
+    if (!(share > kNothing)) {
+      const Disc disc = find_disc(at, map, bandwidth, config_.neighbours, buffer);
+      return disc.empty() ? Estimate{} : radial_sum(at, map, disc, Tapered{});
     }
-    return sum(at, map, found.disc, area);
+    Estimate estimate = radial_sum(at, map, found.disc, Tapered{});
+    estimate.radiance *= static_cast<float>(1 / share);
+    estimate.area *= static_cast<float>(share);
+    return estimate;
   }
 
  private:
-  Estimate sum(const GatherPoint& at, const PhotonMap& map, const Disc& disc, double area) const {
-    const float inv_h2 = 1 / disc.h2;
-    const std::optional<Rgb> lambertian = at.at.lambertian();
-    Rgb total(0);
-    int count = 0;
-    for (const Neighbour& near : disc.photons) {
-      const float s = near.distance2 * inv_h2;
-      if (!(s < 1)) continue;
-      const Rgb flux = map.flux(near.photon) * (1 - kTaper * s);
-      total += lambertian ? flux : flux * at.at.f(map.wi(near.photon), Lobes::smooth);
-      ++count;
-    }
-    const Rgb scale = lambertian ? *lambertian * kInvPi : Rgb(1);
-    const auto size = static_cast<float>(area);
-    return {total * scale * (1 / size), std::sqrt(disc.h2), size, count};
+  /// Integral of K over R by that over the whole disc.
+  static double share_of_disc(const RegionDisc& found) {
+    const float h = std::sqrt(found.disc.h2);
+    const double whole = std::numbers::pi * kVolume * h * h;
+    return found.region.integral(h, kTaper) / whole;
   }
 
   RegionConfig config_;

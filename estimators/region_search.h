@@ -28,6 +28,9 @@ struct RegionDisc {
   bool whole() const { return region.clearance() * region.clearance() >= disc.h2; }
 };
 
+/// Feelers around the point; their length and whether they look for edges are the caller's choice.
+FeelerQuery feeler_query(const GatherPoint& at, int feelers);
+
 /// The spans point into `buffer`.
 RegionDisc find_in_region(const GatherPoint& at, const PhotonMap& map, const Bandwidth& bandwidth,
                           const RegionConfig& config, NeighbourBuffer& buffer);

@@ -5,11 +5,13 @@
 // with integral of 1: A = cross(p, q)/2, and of d^2: A (p.p + p.q + q.q)/6; outside the disc the
 // circular sector of the same angle. In double: differences of large triangles must be exact
 // enough for slivers. Pure.
+#include "estimators/sector_integral.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "estimators/free_region.h"
+#include "core/check.h"
 
 namespace octolux {
 
@@ -25,7 +27,7 @@ double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
 
 /// A convex polygon of few corners.
 struct Polygon {
-  std::array<Point, 3 + PhotonRegion::kLines> corners;
+  std::array<Point, 3 + PhotonRegion::kLines + kMaxExtraLines> corners;
   int count = 0;
 
   void add(Point p) { corners[static_cast<std::size_t>(count++)] = p; }
@@ -69,7 +71,8 @@ double between(Point p, Point q, double taper) {
 }
 
 /// The sector in units of `unit`, cut off outside the unit disc by the tangent in its middle.
-Polygon polygon_of(const PhotonRegion::Sector& sector, int index, float unit) {
+Polygon polygon_of(const PhotonRegion::Sector& sector, int index, float unit,
+                   std::span<const HalfPlane> also) {
   static const double kFar = 1 / std::cos(std::numbers::pi / 8);
   const double from = index * std::numbers::pi / 4;
   const double to = from + std::numbers::pi / 4;
@@ -81,13 +84,16 @@ Polygon polygon_of(const PhotonRegion::Sector& sector, int index, float unit) {
     const HalfPlane line = sector.line(i);
     if (line.c < unit) polygon = clip(polygon, {line.a, line.c / unit});
   }
+  for (const HalfPlane& line : also) polygon = clip(polygon, {line.a, line.c / unit});
   return polygon;
 }
 
 }  // namespace
 
-double sector_integral(const PhotonRegion::Sector& sector, int index, float h, float taper) {
-  const Polygon polygon = polygon_of(sector, index, h);
+double sector_integral(const PhotonRegion::Sector& sector, int index, float h, float taper,
+                       std::span<const HalfPlane> also) {
+  OCTOLUX_CHECK(also.size() <= kMaxExtraLines);
+  const Polygon polygon = polygon_of(sector, index, h, also);
   double sum = 0;
   for (int i = 0; i < polygon.count; ++i) {
     sum += between(polygon.corners[i], polygon.corners[(i + 1) % polygon.count], taper);
@@ -96,7 +102,7 @@ double sector_integral(const PhotonRegion::Sector& sector, int index, float h, f
 }
 
 float sector_extent(const PhotonRegion::Sector& sector, int index, float limit) {
-  const Polygon polygon = polygon_of(sector, index, limit);
+  const Polygon polygon = polygon_of(sector, index, limit, {});
   double farthest2 = 0;
   for (int i = 0; i < polygon.count; ++i) {
     farthest2 = std::max(farthest2, dot(polygon.corners[i], polygon.corners[i]));

@@ -56,6 +56,8 @@ void visit(Config& config, Field&& field) {
   field("estimator.kernel", config.estimator.kernel);
   field("estimator.neighbours", config.estimator.neighbours);
   field("estimator.cone_slope", config.estimator.cone_slope);
+  field("estimator.octants", config.estimator.octants);
+  field("estimator.correction", config.estimator.correction);
   field("estimator.feelers", config.estimator.feelers);
   field("eye.gather", config.eye.gather);
   field("eye.gather_rays", config.eye.gather_rays);

@@ -16,12 +16,6 @@ void Film::add(const PassImage& pass) {
   for (std::size_t i = 0; i < pixels_.size(); ++i) {
     const EyeSample& sample = pass[i];
     const Rgb radiance = sample.radiance();
-    if (!is_finite(radiance)) {
-      if (non_finite_++ == 0)
-        first_non_finite_ = {static_cast<int>(i % width_), static_cast<int>(i / width_),
-                             passes_ - 1};
-      continue;
-    }
     Pixel& pixel = pixels_[i];
     pixel.direct += sample.direct;
     pixel.caustic += sample.caustic;
@@ -36,6 +30,14 @@ void Film::add(const PassImage& pass) {
     const double y = luminance(radiance);
     pixel.luminance_square += y * y;
   }
+}
+
+void Film::note_non_finite(std::int64_t count, std::size_t pixel) {
+  if (count > 0 && non_finite_ == 0) {
+    const auto index = static_cast<int>(pixel);
+    first_non_finite_ = {index % width_, index / width_, passes_};
+  }
+  non_finite_ += count;
 }
 
 Image Film::radiance() const {

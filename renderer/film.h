@@ -30,6 +30,8 @@ class Film {
   Film(int width, int height);
 
   void add(const PassImage& pass);
+  /// Notes that a pass left out `count` samples, the first at `pixel` (y * width + x).
+  void note_non_finite(std::int64_t count, std::size_t pixel);
 
   int width() const { return width_; }
   int height() const { return height_; }

@@ -33,6 +33,8 @@ class LightSampler {
   /// Probability that `sample` chooses the environment; 0 if there is none.
   float pmf_of_environment() const { return pmf_of_environment_; }
 
+  /// Is there nothing to choose?
+  bool empty() const { return !(total_power() > 0); }
   /// Sum over all lights of the mean of the channels [W].
   double total_power() const { return emission_.total(); }
 

@@ -62,9 +62,10 @@ struct Scan {
   std::map<std::string, std::string> unknown;  // key, place where it first occurs
 };
 
-/// Checks a statement and notes it. `grey` colours are those written as one number.
-void scan_statement(const std::vector<std::string>& words, const std::string& place, Scan& scan,
+/// Checks a statement and notes it.
+void scan_statement(const std::string& line, const std::string& place, Scan& scan,
                     Scan::Entry& entry) {
+  const std::vector<std::string> words = split(line);
   const std::string& key = words[0];
   entry.given.insert(key);
   if (contains(kColours, key)) {
@@ -76,7 +77,10 @@ void scan_statement(const std::vector<std::string>& words, const std::string& pl
   } else if (contains(kNumbers, key)) {
     number(words, 1, place);
   } else if (contains(kMaps, key)) {
-    entry.maps.emplace_back(key, words.back());
+    std::string name;
+    tinyobj::texture_option_t options;
+    tinyobj::ParseTextureNameAndOption(&name, &options, line.substr(key.size()).c_str());
+    entry.maps.emplace_back(key, name);
   } else {
     scan.unknown.try_emplace(key, place);
   }
@@ -89,13 +93,13 @@ Scan scan_lines(const std::string& text, const std::string& path) {
   std::size_t line_number = 0;
   for (std::string line; std::getline(in, line);) {
     const std::string place = fmt::format("{}:{}", path, ++line_number);
-    const std::vector<std::string> words = split(line);
-    if (words.empty() || words[0][0] == '#') continue;
-    if (words[0] != "newmtl") {
-      scan_statement(words, place, scan, *entry);
+    const std::string statement(trim(line));
+    if (statement.empty() || statement[0] == '#') continue;
+    if (split(statement)[0] != "newmtl") {
+      scan_statement(statement, place, scan, *entry);
       continue;
     }
-    const std::string name(trim(trim(line).substr(6)));
+    const std::string name(trim(statement.substr(6)));
     if (name.empty()) throw Error(place + ": newmtl needs a name");
     Scan::Entry fresh;
     fresh.place = place;
@@ -129,22 +133,13 @@ MtlMaterial convert(const tinyobj::material_t& m, const std::string& name,
   return result;
 }
 
-/// Line breaks of all kinds to '\n'; numbers with a leading '+' are the same without it.
-std::string unify_line_breaks(std::string text) {
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] != '\r') continue;
-    text[i] = i + 1 < text.size() && text[i + 1] == '\n' ? ' ' : '\n';
-  }
-  return text;
-}
-
 }  // namespace
 
 MtlFile read_mtl_file(const std::string& path) {
   std::string text = read_text_file(path);
   MtlFile file;
   file.hash = hash_bytes(0, text);
-  text = unify_line_breaks(std::move(text));
+  unify_line_breaks(text);
   Scan scan = scan_lines(text, path);
 
   std::map<std::string, int> index_of_name;

@@ -33,7 +33,7 @@ struct ForwardReference {
   std::size_t offset = 0;
 };
 
-/// Does a statement carry at least `count` numbers? (Finite or not.)
+/// Does a statement carry at least `count` finite numbers? (tinyobjloader reads others as 0.)
 bool has_numbers(std::string_view line, int count) {
   const char* at = line.data();
   const char* const end = at + line.size();
@@ -45,7 +45,8 @@ bool has_numbers(std::string_view line, int count) {
     if (at < end && *at == '+') ++at;
     double value = 0;
     const auto [after, error] = std::from_chars(at, end, value);
-    if (error == std::errc::invalid_argument || (after < end && !blank(*after))) return false;
+    if (error == std::errc::invalid_argument || !std::isfinite(value)) return false;
+    if (after < end && !blank(*after)) return false;
     at = after;
   }
   return true;

@@ -167,6 +167,7 @@ ObjMesh load_obj_mesh(const std::string& path, const Affine& to_world, bool face
     throw Error(fmt::format("{}: all {} triangles have no area", path, all.size()));
   }
   result.warnings = file.warnings;
+  result.hash = file.hash;
   if (result.degenerate_triangles > 0) {
     result.warnings.push_back(fmt::format("{}: {} triangles without area are left out", path,
                                           result.degenerate_triangles));

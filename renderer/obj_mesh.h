@@ -20,6 +20,7 @@ struct ObjMesh {
   TriangleMesh mesh;
   std::size_t degenerate_triangles = 0;  // had no area; left out
   std::vector<std::string> warnings;     // what was ignored, degenerate triangles included
+  std::uint64_t hash = 0;                // of the file's bytes
 };
 
 /// The whole file as one mesh, for the `obj` shape of Mitsuba XML; materials are ignored. Normals

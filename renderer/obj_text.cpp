@@ -31,16 +31,35 @@ std::string read_text_file(const std::string& path) {
   return bytes;
 }
 
+void unify_line_breaks(std::string& text) {
+  for (std::size_t i = text.find('\r'); i != std::string::npos; i = text.find('\r', i + 1)) {
+    text[i] = i + 1 < text.size() && text[i + 1] == '\n' ? ' ' : '\n';
+  }
+}
+
 std::string_view trim(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \t\r\n");
   if (begin == std::string_view::npos) return {};
   return text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
 }
 
+namespace {
+
+/// Where a comment begins behind a statement's words, or its length. "1.#IND" is no comment.
+std::size_t comment_start(std::string_view line) {
+  for (std::size_t i = line.find('#'); i != std::string_view::npos; i = line.find('#', i + 1)) {
+    if (line[i - 1] == ' ' || line[i - 1] == '\t') return i;
+  }
+  return line.size();
+}
+
+}  // namespace
+
 ObjText::ObjText(const std::string& path) : path_(path), text_(read_text_file(path)) {
   hash_ = hash_bytes(0, text_);
   text_ += '\n';
-  unify_line_breaks();
+  unify_line_breaks(text_);
+  join_continued_lines();
   for (std::size_t begin = 0; begin < text_.size();) {
     const std::size_t end = text_.find('\n', begin);
     read_statement(begin, end);
@@ -48,10 +67,7 @@ ObjText::ObjText(const std::string& path) : path_(path), text_(read_text_file(pa
   }
 }
 
-void ObjText::unify_line_breaks() {
-  for (std::size_t i = text_.find('\r'); i != std::string::npos; i = text_.find('\r', i + 1)) {
-    text_[i] = text_[i + 1] == '\n' ? ' ' : '\n';  // a '\n' was appended, so i + 1 exists
-  }
+void ObjText::join_continued_lines() {
   for (std::size_t i = text_.find('\\'); i != std::string::npos; i = text_.find('\\', i + 1)) {
     const std::size_t end = text_.find_first_not_of(' ', i + 1);
     const bool last = end != std::string::npos && end + 1 == text_.size();
@@ -67,9 +83,8 @@ void ObjText::read_statement(std::size_t begin, std::size_t end) {
   const std::size_t word_end = std::min(text_.find_first_of(" \t", begin), end);
   const std::string_view word(text_.data() + begin, word_end - begin);
   if (word == "v" || word == "vn" || word == "vt" || word == "f") {
-    const auto line_end = text_.begin() + static_cast<std::ptrdiff_t>(end);
-    const auto line_begin = text_.begin() + static_cast<std::ptrdiff_t>(begin);
-    std::fill(std::find(line_begin, line_end, '#'), line_end, ' ');
+    const std::size_t comment = begin + comment_start({text_.data() + begin, end - begin});
+    std::fill_n(text_.begin() + static_cast<std::ptrdiff_t>(comment), end - comment, ' ');
   } else if (word == "mtllib") {
     const auto rest = trim({text_.data() + word_end, end - word_end});
     if (!rest.empty()) mtllibs_.emplace_back(rest);

@@ -33,7 +33,7 @@ class ObjText {
   std::string place_before(std::size_t end) const;
 
  private:
-  void unify_line_breaks();
+  void join_continued_lines();
   void read_statement(std::size_t begin, std::size_t end);
   std::size_t line_number(std::size_t offset) const;
 
@@ -47,6 +47,9 @@ class ObjText {
 
 /// The whole file as bytes. Throws Error, "path: cannot be read: reason".
 std::string read_text_file(const std::string& path);
+
+/// CR LF becomes blank LF, a lone CR becomes LF: nothing moves.
+void unify_line_breaks(std::string& text);
 
 /// Without blanks (spaces, tabs, carriage returns) at either end.
 std::string_view trim(std::string_view text);

@@ -67,7 +67,7 @@ void trace_photon(Tracer& tracer, Flight flight, PhotonKind kind, int max_segmen
 PhotonPass trace_photons(const Scene& scene, const LightSampler& lights, PhotonKind kind,
                          std::int64_t count, PassKey key) {
   PhotonPass result;
-  if (count == 0 || !lights.any_power()) return result;
+  if (count == 0 || lights.empty()) return result;
   if (kind == PhotonKind::caustic && !scene.any_specular) return result;
 
   const Stream stream = kind == PhotonKind::global ? Stream::global_photon : Stream::caustic_photon;

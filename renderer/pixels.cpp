@@ -1,7 +1,9 @@
-// pixels.h.
+// pixels.h. All pixels of a pass put their sample at the same place of their square, the next point
+// of a low-discrepancy sequence; the picture of the pass is the filtered grid of these samples.
 #include "renderer/pixels.h"
 
 #include <atomic>
+#include <cmath>
 
 #include "core/parallel.h"
 
@@ -11,15 +13,15 @@ namespace {
 
 constexpr int kTile = 16;  // pixels
 
-struct Tile {
-  int x0, y0, x1, y1;
-};
-
-Tile tile_at(const FilmSize& film, std::int64_t index) {
-  const int across = (film.crop_width + kTile - 1) / kTile;
-  const int x0 = static_cast<int>(index % across) * kTile;
-  const int y0 = static_cast<int>(index / across) * kTile;
-  return {x0, y0, std::min(film.crop_width, x0 + kTile), std::min(film.crop_height, y0 + kTile)};
+/// Point `index` of the R2 sequence (Roberts 2018), shifted by the seed.
+Vec2 sub_pixel(std::uint64_t seed, std::uint64_t index) {
+  Rng rng(seed, Stream::eye, ~std::uint64_t{0}, 0);
+  const Vec2 shift = rng.uniform2();
+  const auto place = [&](float start, double step) {
+    const double p = start + static_cast<double>(index % (1u << 20)) * step;
+    return std::min(kOneMinusEpsilon, static_cast<float>(p - std::floor(p)));
+  };
+  return {place(shift.x, 0.7548776662466927), place(shift.y, 0.5698402909980532)};
 }
 
 void add(EyeSample& sum, const EyeSample& s, float weight) {
@@ -31,39 +33,86 @@ void add(EyeSample& sum, const EyeSample& s, float weight) {
   sum.depth += s.depth * weight;
 }
 
+/// The grid of samples, one per pixel, all at `offset` within their pixel.
+struct SampleGrid {
+  int width, height;
+  Vec2 offset;
+  PassImage samples;
+
+  const EyeSample& at(int x, int y) const {
+    return samples[static_cast<std::size_t>(y) * width + x];
+  }
+};
+
+/// Adds the filtered grid's value at pixel (x, y), times `share`.
+void add_filtered(EyeSample& out, const SampleGrid& grid, const Filter& filter, int x, int y,
+                  float share) {
+  const int reach = static_cast<int>(std::ceil(filter.reach() + 0.5f));
+  EyeSample sum;
+  float total = 0;
+  for (int j = std::max(0, y - reach); j <= std::min(grid.height - 1, y + reach); ++j) {
+    const float wy = filter.profile(static_cast<float>(j - y) + grid.offset.y - 0.5f);
+    if (wy == 0) continue;
+    for (int i = std::max(0, x - reach); i <= std::min(grid.width - 1, x + reach); ++i) {
+      const float weight = wy * filter.profile(static_cast<float>(i - x) + grid.offset.x - 0.5f);
+      const EyeSample& sample = grid.at(i, j);
+      if (weight == 0 || !is_finite(sample.radiance())) continue;
+      add(sum, sample, weight);
+      total += weight;
+    }
+  }
+  if (total > 0) add(out, sum, share / total);
+}
+
+/// Calls body(x, y) for every pixel, tile by tile, in parallel.
+void for_each_pixel(int width, int height, const std::function<void(int x, int y)>& body) {
+  const int across = (width + kTile - 1) / kTile, down = (height + kTile - 1) / kTile;
+  parallel_for_chunks(static_cast<std::int64_t>(across) * down, 1,
+                      [&](std::int64_t tile, std::int64_t, std::int64_t) {
+                        const int x0 = static_cast<int>(tile % across) * kTile;
+                        const int y0 = static_cast<int>(tile / across) * kTile;
+                        for (int y = y0; y < std::min(height, y0 + kTile); ++y) {
+                          for (int x = x0; x < std::min(width, x0 + kTile); ++x) body(x, y);
+                        }
+                      });
+}
+
+/// Traces sample number `number` (of the whole render) of every pixel.
+SampleGrid trace_grid(const Scene& scene, PassKey key, std::uint64_t number,
+                      const EyePathFunction& path, PixelPass& pass) {
+  SampleGrid grid{scene.film.crop_width, scene.film.crop_height, sub_pixel(key.seed, number), {}};
+  grid.samples.resize(static_cast<std::size_t>(grid.width) * grid.height);
+  std::atomic<std::int64_t> rays{0};
+  for_each_pixel(grid.width, grid.height, [&](int x, int y) {
+    const std::size_t pixel = static_cast<std::size_t>(y) * grid.width + x;
+    Tracer tracer(scene, Rng(key.seed, Stream::eye, number, pixel));
+    const Vec2 corner{static_cast<float>(x), static_cast<float>(y)};
+    grid.samples[pixel] = path(tracer, scene.camera.ray(corner + grid.offset));
+    rays.fetch_add(tracer.rays(), std::memory_order_relaxed);
+  });
+  pass.rays += rays;
+  for (std::size_t i = 0; i < grid.samples.size(); ++i) {
+    if (is_finite(grid.samples[i].radiance())) continue;
+    if (pass.non_finite++ == 0) pass.first_non_finite = i;
+  }
+  return grid;
+}
+
 }  // namespace
 
 PixelPass trace_pixels(const Scene& scene, int samples, PassKey key, const EyePathFunction& path) {
-  const FilmSize& film = scene.film;
-  PixelPass result;
-  result.image.resize(static_cast<std::size_t>(film.crop_width) * film.crop_height);
-  const std::int64_t tiles = static_cast<std::int64_t>((film.crop_width + kTile - 1) / kTile) *
-                             ((film.crop_height + kTile - 1) / kTile);
-  std::atomic<std::int64_t> rays{0};
-
-  const auto trace_pixel = [&](int x, int y) {
-    const std::size_t pixel = static_cast<std::size_t>(y) * film.crop_width + x;
-    std::int64_t count = 0;
-    for (int s = 0; s < samples; ++s) {
-      const std::uint64_t index = pixel * static_cast<std::uint64_t>(samples) + s;
-      Tracer tracer(scene, Rng(key.seed, Stream::eye, key.pass, index));
-      const Vec2 offset = scene.filter.sample(tracer.rng.uniform2());
-      const Ray ray = scene.camera.ray(Vec2{x + 0.5f, y + 0.5f} + offset);
-      add(result.image[pixel], path(tracer, ray), 1.0f / static_cast<float>(samples));
-      count += tracer.rays();
-    }
-    return count;
-  };
-  parallel_for_chunks(tiles, 1, [&](std::int64_t chunk, std::int64_t, std::int64_t) {
-    const Tile tile = tile_at(film, chunk);
-    std::int64_t count = 0;
-    for (int y = tile.y0; y < tile.y1; ++y) {
-      for (int x = tile.x0; x < tile.x1; ++x) count += trace_pixel(x, y);
-    }
-    rays += count;
-  });
-  result.rays = rays;
-  return result;
+  PixelPass pass;
+  pass.image.resize(static_cast<std::size_t>(scene.film.crop_width) * scene.film.crop_height);
+  const float share = 1.0f / static_cast<float>(samples);
+  for (int s = 0; s < samples; ++s) {
+    const std::uint64_t number = key.pass * static_cast<std::uint64_t>(samples) + s;
+    const SampleGrid grid = trace_grid(scene, key, number, path, pass);
+    for_each_pixel(grid.width, grid.height, [&](int x, int y) {
+      EyeSample& out = pass.image[static_cast<std::size_t>(y) * grid.width + x];
+      add_filtered(out, grid, scene.filter, x, y, share);
+    });
+  }
+  return pass;
 }
 
 void describe_first_hit(EyeSample& out, const Scene& scene, const SurfaceHit& hit, const Ray& ray) {

@@ -1,5 +1,5 @@
-// From one path to the picture of one pass: which samples a pixel takes, in tiles that do not
-// depend on threads.
+// From one path to the picture of one pass: which samples are taken, and what each pixel makes of
+// them. Nothing depends on threads.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,16 @@ namespace octolux {
 /// Radiance and layers along one camera ray.
 using EyePathFunction = std::function<EyeSample(Tracer& tracer, const Ray& ray)>;
 
-/// The picture of one pass, and the rays it took.
+/// The picture of one pass, what it took, and what went wrong.
 struct PixelPass {
   PassImage image;
   std::int64_t rays = 0;
+  std::int64_t non_finite = 0;       // samples left out because they were not finite
+  std::size_t first_non_finite = 0;  // pixel (y * width + x) of the first of them
 };
 
-/// Traces `samples` eye paths for every pixel of the scene's film and averages them.
+/// Traces `samples` eye paths for every pixel of the scene's film; every pixel is the mean of those
+/// that its filter reaches.
 PixelPass trace_pixels(const Scene& scene, int samples, PassKey key, const EyePathFunction& path);
 
 /// Albedo, normal and depth of the first surface an eye path met along `ray`.

@@ -158,12 +158,13 @@ void Properties::finish() const {
   for (const Entry& e : entries_) {
     if (e.used) continue;
     const std::string* type = node_.attribute("type");
-    const std::string owner = node_.tag + (type ? " '" + *type + "'" : "");
+    const std::string owner = type ? *type : node_.tag;
     if (e.name.empty()) {
-      octolux::fail(e.node->where, "a " + e.node->object().tag + " cannot stand inside " + owner);
+      octolux::fail(e.node->where, "a " + e.node->object().tag + " cannot stand inside " +
+                                       node_.tag + " '" + owner + "'");
     }
     octolux::fail(e.node->where,
-                  unknown_name("parameter of " + owner, *e.node->attribute("name"), legal));
+                  unknown_name(owner + " parameter", *e.node->attribute("name"), legal));
   }
 }
 

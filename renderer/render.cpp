@@ -61,7 +61,7 @@ RadianceMap make_map(const Job& job, PhotonKind kind, PassKey key, Progress& pro
   return RadianceMap(std::move(map), *job.estimator, bandwidth);
 }
 
-PassImage photon_mapping_pass(const Job& job, PassKey key, Progress& progress) {
+PixelPass photon_mapping_pass(const Job& job, PassKey key, Progress& progress) {
   progress.photon_bytes = 0;
   PhotonMaps maps;
   maps.caustics_mapped = job.config.photons.caustic > 0;
@@ -76,17 +76,17 @@ PassImage photon_mapping_pass(const Job& job, PassKey key, Progress& progress) {
                                   });
   progress.rays += pixels.rays;
   progress.timing.eye += watch.lap();
-  return std::move(pixels.image);
+  return pixels;
 }
 
-PassImage path_tracing_pass(const Job& job, PassKey key, Progress& progress) {
+PixelPass path_tracing_pass(const Job& job, PassKey key, Progress& progress) {
   Stopwatch watch;
   PixelPass pixels = trace_pixels(
       job.scene, job.config.eye.samples_per_pass, key,
       [&](Tracer& tracer, const Ray& ray) { return trace_path(tracer, job.lights, ray); });
   progress.rays += pixels.rays;
   progress.timing.eye += watch.lap();
-  return std::move(pixels.image);
+  return pixels;
 }
 
 /// Passes allowed by the rules that count them; 0: no such rule.
@@ -141,9 +141,11 @@ RenderResult render(const Scene& scene, const RenderConfig& config, RenderObserv
   progress.total_passes = pass_limit(stop, config.eye.samples_per_pass);
   do {
     const PassKey key = job.key(progress.passes);
-    result.film.add(config.integrator == Integrator::photon
-                        ? photon_mapping_pass(job, key, progress)
-                        : path_tracing_pass(job, key, progress));
+    const PixelPass pass = config.integrator == Integrator::photon
+                               ? photon_mapping_pass(job, key, progress)
+                               : path_tracing_pass(job, key, progress);
+    result.film.note_non_finite(pass.non_finite, pass.first_non_finite);
+    result.film.add(pass.image);
     ++progress.passes;
     progress.seconds = watch.seconds();
     progress.error = result.film.relative_error();

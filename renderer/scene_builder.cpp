@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-#include "renderer/file_hash.h"
+#include "core/hash.h"
+#include "renderer/obj_text.h"
 #include "renderer/xml_objects.h"
 
 namespace octolux {
@@ -61,7 +62,7 @@ std::string SceneBuilder::file(Properties& properties, const std::string& name) 
   if (!given) properties.fail(name, "the parameter '" + name + "' is missing");
   std::string path = document_.find_file(*given, properties.where(name));
   if (hashed_files_.insert(path).second) {
-    scene_.hash = hash_bytes(read_whole_file(path), scene_.hash);
+    scene_.hash = hash_bytes(scene_.hash, read_text_file(path));
   }
   return path;
 }

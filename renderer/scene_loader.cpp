@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "core/error.h"
-#include "renderer/file_hash.h"
 #include "renderer/obj_scene.h"
 #include "renderer/xml_scene.h"
 
@@ -24,7 +23,6 @@ void load_bare_obj(const std::string& path, const LoadOptions& options, Scene& s
                 ": an .obj file has no parameters");
   }
   load_obj_scene(path, scene);
-  if (scene.hash == 0) scene.hash = hash_bytes(read_whole_file(path));
 }
 
 }  // namespace

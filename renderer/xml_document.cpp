@@ -12,7 +12,8 @@
 #include <set>
 
 #include "core/error.h"
-#include "renderer/file_hash.h"
+#include "core/hash.h"
+#include "renderer/obj_text.h"
 #include "renderer/xml_grammar.h"
 #include "renderer/xml_references.h"
 
@@ -68,11 +69,7 @@ class XmlReader {
     std::string text;
   };
 
-  void add_to_hash(std::string_view bytes) {
-    // The length first, so that files cannot run into each other.
-    document_.hash_ = hash_bytes(std::to_string(bytes.size()) + ":", document_.hash_);
-    document_.hash_ = hash_bytes(bytes, document_.hash_);
-  }
+  void add_to_hash(std::string_view bytes) { document_.hash_ = hash_bytes(document_.hash_, bytes); }
   XmlNode read_node(const pugi::xml_node& xml, const Source& source);
   void read_child(const pugi::xml_node& xml, const Source& source, XmlNode& parent);
   void include(const XmlNode& directive, XmlNode& parent);
@@ -101,7 +98,7 @@ XmlNode XmlReader::read_file(const std::string& path, const std::string& shown_a
   if (std::count(open_files_.begin(), open_files_.end(), canonical) > 0) {
     throw Error(shown_at + "the file includes itself: '" + path + "'");
   }
-  const Source source{path, read_whole_file(path)};
+  const Source source{path, read_text_file(path)};
   add_to_hash(source.text);
 
   pugi::xml_document xml;
@@ -139,7 +136,9 @@ XmlNode XmlReader::read_node(const pugi::xml_node& xml, const Source& source) {
 
 void XmlReader::read_child(const pugi::xml_node& xml, const Source& source, XmlNode& parent) {
   if (xml.type() == pugi::node_pcdata || xml.type() == pugi::node_cdata) {
-    fail(locate(source.path, source.text, xml.offset_debug()),
+    const std::size_t begin = static_cast<std::size_t>(xml.offset_debug());
+    const std::size_t word = source.text.find_first_not_of(" \t\r\n", begin);
+    fail(locate(source.path, source.text, static_cast<std::ptrdiff_t>(word)),
          "unexpected text inside <" + parent.tag + ">");
   }
   if (xml.type() != pugi::node_element) return;
@@ -209,8 +208,8 @@ std::string XmlReader::substitute(const std::string& text, const Location& where
   return result;
 }
 
-XmlDocument::XmlDocument(const std::string& path, const std::map<std::string, std::string>& defines)
-    : hash_(kHashSeed) {
+XmlDocument::XmlDocument(const std::string& path,
+                         const std::map<std::string, std::string>& defines) {
   XmlReader reader(*this, defines);
   search_path_.push_back(fs::path(path).parent_path().string());
   root_ = reader.read_file(path, "");
@@ -224,6 +223,7 @@ std::string XmlDocument::find_file(const std::string& name, const Location& wher
   std::vector<std::string> folders{fs::path(where.file).parent_path().string()};
   // Later <path>s win, as in Mitsuba.
   folders.insert(folders.end(), search_path_.rbegin(), search_path_.rend());
+  folders.erase(std::unique(folders.begin(), folders.end()), folders.end());
   for (const std::string& folder : folders) {
     const fs::path candidate = fs::path(folder) / name;
     if (fs::is_regular_file(candidate)) return candidate.string();

@@ -33,10 +33,7 @@ Geometry obj(Properties& p, SceneBuilder& b) {
   const bool face_normals = p.boolean("face_normals").value_or(false);
   const bool flip_tex_coords = p.boolean("flip_tex_coords").value_or(true);
   ObjMesh loaded = load_obj_mesh(path, p.transform("to_world"), face_normals, flip_tex_coords);
-  if (loaded.degenerate_triangles > 0) {
-    b.warn(path + ": left out " + std::to_string(loaded.degenerate_triangles) +
-           " degenerate triangles");
-  }
+  for (const std::string& warning : loaded.warnings) b.warn(warning);
   if (read_flip(p)) flip(loaded.mesh);
   return std::move(loaded.mesh);
 }

@@ -1,6 +1,8 @@
 // Parsing of numbers, points and colours; transforms are in xml_transform.cpp.
 #include "renderer/xml_values.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -28,7 +30,7 @@ std::vector<std::string_view> split_list(std::string_view text) {
   return words;
 }
 
-std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
+std::string quoted(std::string_view text) { return fmt::format("'{}'", text); }
 
 /// from_chars takes no '+'.
 std::string_view without_plus(std::string_view text) {

@@ -198,7 +198,7 @@ std::string RenderCommand::describe(const Scene& scene, const RenderConfig& conf
           ? "path tracing"
           : fmt::format("photon mapping ({}, {} neighbours{})", config.estimator.kernel,
                         config.estimator.neighbours, config.eye.gather ? "" : ", no final gather");
-  return fmt::format("{}: {} primitives, {} emitters; {}x{} pixels, {}, {} threads", scene_.path,
+  return fmt::format("{}: primitives {}, emitters {}, pixels {}x{}, {}, threads {}", scene_.path,
                      primitives, scene.lights.size(), scene.film.crop_width, scene.film.crop_height,
                      method, thread_count());
 }

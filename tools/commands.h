@@ -24,5 +24,6 @@ class Command {
 /// the user typed, for the record in the picture.
 std::unique_ptr<Command> make_render_command(CLI::App& app, const std::string& command_line);
 std::unique_ptr<Command> make_info_command(CLI::App& app);
+std::unique_ptr<Command> make_lab_command(CLI::App& app);
 
 }  // namespace octolux

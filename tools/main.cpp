@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kFault = 1;
 constexpr int kBadInput = 2;
+constexpr char kNoCommand[] = "no command given; legal: info, lab, render; octolux --help says more";
 
 int complain(const std::string& message, int exit_code) {
   fmt::print(stderr, "octolux: {}\n", message);
@@ -36,7 +37,7 @@ std::string join_arguments(int argc, char** argv) {
 void check_verb(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> verbs;
   for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
-  if (argc < 2) throw Error("no command given; legal: info, render; octolux --help says more");
+  if (argc < 2) throw Error(kNoCommand);
   const std::string first = argv[1];
   if (first.rfind('-', 0) == 0 || std::find(verbs.begin(), verbs.end(), first) != verbs.end()) {
     return;
@@ -66,9 +67,11 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", "octolux " OCTOLUX_VERSION, "Print the version and exit");
   app.get_formatter()->column_width(36);
   app.require_subcommand(1);
+  app.footer("octolux render --help, octolux info --help and octolux lab --help list the options of each.");
   std::vector<std::unique_ptr<Command>> commands;
   commands.push_back(make_render_command(app, join_arguments(argc, argv)));
   commands.push_back(make_info_command(app));
+  commands.push_back(make_lab_command(app));
   check_verb(app, argc, argv);
   try {
     app.parse(argc, argv);
@@ -76,6 +79,9 @@ int run(int argc, char** argv) {
     return app.exit(help_or_version);
   } catch (const CLI::ExtrasError&) {
     throw Error(unexpected_argument(app));
+  } catch (const CLI::RequiredError&) {
+    if (app.get_subcommands().empty()) throw Error(kNoCommand);
+    throw;
   }
   for (const auto& command : commands) {
     if (command->chosen()) return command->run();

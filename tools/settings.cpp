@@ -15,7 +15,11 @@ namespace octolux {
 namespace {
 
 constexpr Shortcut kShortcuts[] = {
-    {"--kernel", "estimator.kernel", "NAME", "Density estimator: disc or cone"},
+    {"--kernel", "estimator.kernel", "NAME", "Density estimator: disc, cone, octobox or hull"},
+    {"--octants", "estimator.octants", "auto|one|eight",
+     "OctoBoxes: one, one per octant, or as the photons allow"},
+    {"--correction", "estimator.correction", "on|off",
+     "Estimators unbiased at finite photon counts; off: as published"},
     {"--neighbours", "estimator.neighbours", "N",
      "Photons in a look-up; their extent is the bandwidth"},
     {"--photons", "photons.global", "N", "Photon paths per pass for the global map"},
@@ -56,7 +60,7 @@ void assign(const std::string& source, bool& value, const std::string& text) {
 }
 
 template <class T>
-  requires std::is_floating_point_v<T>
+requires std::is_floating_point_v<T>
 void assign(const std::string& source, T& value, const std::string& text) {
   value = static_cast<T>(parse_number(source, text));
 }

@@ -90,15 +90,6 @@ TEST_P(BsdfSampling, DensityIntegratesToAtMostOneLessTheDeltaShare) {
   }
 }
 
-/// How much an error of one rounding in wi may change f and pdf (bsdf_rough_dielectric.cpp):
-/// through the cosines, through the half vector, and near total reflection through wi.m.
-double condition(Vec3 wo, Vec3 wi, float eta) {
-  const Vec3 half = wo + wi * eta;
-  const float wi_m = std::abs(dot(wi, half)) / length(half);
-  return (1 + 1 / length(half)) * (1 + 1 / (wi_m * wi_m)) *
-         (1 + 1 / std::abs(wi.z) + 1 / std::abs(wo.z));
-}
-
 TEST_P(BsdfSampling, WeightIsFCosOverPdf) {
   const Built built = GetParam().build();
   const SurfacePoint at;
@@ -120,8 +111,8 @@ TEST_P(BsdfSampling, WeightIsFCosOverPdf) {
     const Rgb f = built.bsdf->f(at, wo, s->wi, mask, carried);
     const Rgb expected = f * (std::abs(s->wi.z) / pdf);
     const double ulp = 16 * 0x1p-24 * condition(wo, s->wi, s->eta);
-    const double d_sensitivity = 1 + 8 / static_cast<double>(GetParam().alpha);
-    ASSERT_NEAR(pdf, s->pdf_w, ulp * d_sensitivity * s->pdf_w) << GetParam().name << " " << i;
+    ASSERT_NEAR(pdf, s->pdf_w, ulp * GetParam().d_sensitivity() * s->pdf_w)
+        << GetParam().name << " " << i;
     for (int c = 0; c < 3; ++c) {
       ASSERT_NEAR(expected[c], s->weight[c], ulp * s->weight[c]) << GetParam().name << " " << i;
     }

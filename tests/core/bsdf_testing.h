@@ -2,6 +2,7 @@
 // integrals of a density over cells of the sphere.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -27,6 +28,8 @@ struct BsdfCase {
   float alpha = 1;         // roughness of its sharpest microfacet lobe; 1 if there is none
 
   bool has_microfacets() const { return alpha < 1; }
+  /// Relative change of D over change of the half vector: 2 slope / alpha^2, slope < 4 alpha.
+  double d_sensitivity() const { return 1 + 8 / static_cast<double>(alpha); }
 };
 
 inline Built single(std::unique_ptr<Bsdf> bsdf) { return {{}, std::move(bsdf)}; }
@@ -150,35 +153,46 @@ inline std::vector<Vec3> views(bool behind) {
   return all;
 }
 
+/// How much a rounding error in wi is magnified in f and pdf, but for D: through the cosines,
+/// through the half vector, and near total reflection through wi.m.
+inline double condition(Vec3 wo, Vec3 wi, float eta) {
+  const Vec3 half = wo + wi * eta;
+  const float wi_m = std::abs(dot(wi, half)) / length(half);
+  return (1 + 1 / length(half)) * (1 + 1 / (wi_m * wi_m)) *
+         (1 + 1 / std::abs(wi.z) + 1 / std::abs(wo.z));
+}
+
+/// Part of the sphere between two polar angles and two azimuths.
 struct Cell {
-  double z0 = 0, z1 = 1, phi0 = 0, phi1 = 1;
+  double theta0 = 0, theta1 = std::numbers::pi, phi0 = 0, phi1 = 2 * std::numbers::pi;
 };
 
-/// Integral of `f` over a cell of the sphere by 3 x 3 Gauss points.
+/// Integral of `f` over solid angle by 3 x 3 Gauss points.
 template <class F>
 double gauss9(const F& f, const Cell& c) {
   constexpr double kNode[] = {-0.774596669241483, 0, 0.774596669241483};
   constexpr double kWeight[] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
   double sum = 0;
   for (int i = 0; i < 3; ++i) {
+    const double theta = 0.5 * (c.theta0 + c.theta1 + kNode[i] * (c.theta1 - c.theta0));
     for (int j = 0; j < 3; ++j) {
-      const double z = 0.5 * (c.z0 + c.z1 + kNode[i] * (c.z1 - c.z0));
       const double phi = 0.5 * (c.phi0 + c.phi1 + kNode[j] * (c.phi1 - c.phi0));
-      sum += kWeight[i] * kWeight[j] * static_cast<double>(f(direction(z, phi)));
+      const double value = static_cast<double>(f(direction(std::cos(theta), phi)));
+      sum += kWeight[i] * kWeight[j] * std::sin(theta) * value;
     }
   }
-  return sum * (c.z1 - c.z0) * (c.phi1 - c.phi0);
+  return sum * (c.theta1 - c.theta0) * (c.phi1 - c.phi0);
 }
 
-/// The same, halved adaptively until four quarters agree with the whole to within `tolerance`;
-/// `sure` is the number of halvings made in any case.
+/// The same, quartered adaptively until the quarters agree with the whole to within `tolerance`;
+/// `sure` is the number of quarterings made in any case, `most` their bound.
 template <class F>
 double integrate(const F& f, const Cell& c, double tolerance, int sure = 2, int most = 9) {
-  const double z = 0.5 * (c.z0 + c.z1), phi = 0.5 * (c.phi0 + c.phi1);
-  const Cell quarters[] = {{c.z0, z, c.phi0, phi},
-                           {z, c.z1, c.phi0, phi},
-                           {c.z0, z, phi, c.phi1},
-                           {z, c.z1, phi, c.phi1}};
+  const double theta = 0.5 * (c.theta0 + c.theta1), phi = 0.5 * (c.phi0 + c.phi1);
+  const Cell quarters[] = {{c.theta0, theta, c.phi0, phi},
+                           {theta, c.theta1, c.phi0, phi},
+                           {c.theta0, theta, phi, c.phi1},
+                           {theta, c.theta1, phi, c.phi1}};
   double sum = 0;
   if (sure <= 0) {
     for (const Cell& q : quarters) sum += gauss9(f, q);
@@ -189,20 +203,20 @@ double integrate(const F& f, const Cell& c, double tolerance, int sure = 2, int 
   return sum;
 }
 
-/// Sphere cut into cells equidistant in z and in phi; z = 0 is a border.
+/// Sphere cut into cells equidistant in angle; the horizon is a border.
 struct SphereGrid {
   int rows = 20, columns = 24;
 
   int size() const { return rows * columns; }
   Cell cell(int index) const {
-    const double dz = 2.0 / rows, dphi = 2 * std::numbers::pi / columns;
+    const double step = std::numbers::pi / rows, turn = 2 * std::numbers::pi / columns;
     const int row = index / columns, column = index % columns;
-    return {-1 + row * dz, -1 + (row + 1) * dz, -std::numbers::pi + column * dphi,
-            -std::numbers::pi + (column + 1) * dphi};
+    return {row * step, (row + 1) * step, column * turn, (column + 1) * turn};
   }
   int index(Vec3 w) const {
-    const double phi = std::atan2(static_cast<double>(w.y), static_cast<double>(w.x));
-    const int row = static_cast<int>((static_cast<double>(w.z) + 1) / 2 * rows);
+    const double theta = std::acos(std::clamp(static_cast<double>(w.z), -1.0, 1.0));
+    const double phi = std::atan2(-static_cast<double>(w.y), -static_cast<double>(w.x));
+    const int row = static_cast<int>(theta / std::numbers::pi * rows);
     const int column = static_cast<int>((phi / (2 * std::numbers::pi) + 0.5) * columns);
     return std::min(row, rows - 1) * columns + std::min(column, columns - 1);
   }

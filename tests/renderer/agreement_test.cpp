@@ -39,8 +39,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Case{"cornell/cornell.xml", 48, 48, 4096, 128, 100'000},
                     Case{"glass-sphere/glass-sphere.xml", 48, 48, 8192, 128, 100'000},
                     Case{"two-rooms/two-rooms.xml", 48, 32, 16384, 128, 100'000}),
-    [](const testing::TestParamInfo<Case>& info) {
-      std::string name = info.param.scene;
+    [](const testing::TestParamInfo<Case>& param) {
+      std::string name = param.param.scene;
       name = name.substr(0, name.find('/'));
       name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
       return name;

@@ -69,7 +69,9 @@ TEST_P(ConvergenceSlow, NoFloorOverThreeOctavesPastSixtyFourPasses) {
 
 INSTANTIATE_TEST_SUITE_P(Modes, ConvergenceSlow,
                          testing::Values(Mode{"gathered", true}, Mode{"direct", false}),
-                         [](const testing::TestParamInfo<Mode>& info) { return info.param.name; });
+                         [](const testing::TestParamInfo<Mode>& param) {
+                           return param.param.name;
+                         });
 
 }  // namespace
 }  // namespace octolux::test

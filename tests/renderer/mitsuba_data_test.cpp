@@ -62,8 +62,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"bsdf_spheres/test_textured_diffuse_path.xml",
              "bsdf_spheres/refs/test_textured_diffuse_ref"},
         Case{"infinite_mirrors/scene_path.xml", "infinite_mirrors/refs/scene_ref"}),
-    [](const testing::TestParamInfo<Case>& info) {
-      std::string name = std::filesystem::path(info.param.reference).filename().string();
+    [](const testing::TestParamInfo<Case>& param) {
+      std::string name = std::filesystem::path(param.param.reference).filename().string();
       name.erase(std::remove(name.begin(), name.end(), '_'), name.end());
       return name;
     });

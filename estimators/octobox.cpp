@@ -1,0 +1,76 @@
+// The OctoBox kernel (Tobler & Maierhofer 2006, section 4): sum of flux over the area that the
+// photons cover, instead of the area of the disc they were looked for in. octobox_fit.h has the
+// estimate of the area, octobox_table.h what it is divided by.
+//
+// At few photons a box is too noisy, and hands over to the disc: 1/area is a mean of both, with
+// weights that depend on the number of photons alone, so that it stays unbiased on an open plane.
+#include <memory>
+
+#include "estimators/octobox_fit.h"
+#include "estimators/octobox_table.h"
+#include "estimators/plane_photons.h"
+#include "estimators/radial.h"
+
+namespace octolux {
+namespace {
+
+/// Smaller shares of the disc are no area: the photons are on a line.
+constexpr float kDegenerate = 1e-5f;
+
+class OctoBox final : public Estimator {
+ public:
+  explicit OctoBox(const EstimatorConfig& config)
+      : config_(config),
+        use_(parse_octant_use(config.octants)),
+        table_(make_octobox_corrections(use_, config.neighbours)) {}
+
+  Estimate estimate(const GatherPoint& at, const PhotonMap& map,
+                    const Bandwidth& bandwidth) const override {
+    thread_local NeighbourBuffer buffer;
+    const Disc disc =
+        find_disc(at, map, bandwidth, config_.neighbours, buffer, bandwidth_rule(config_));
+    if (disc.empty()) return {};
+    Estimate estimate = radial_sum(at, map, disc, FlatKernel{});
+    const float gain =
+        config_.correction ? corrected(at, map, disc, estimate.count) : published(at, map, disc);
+    estimate.radiance *= gain;
+    if (gain > 0) estimate.area /= gain;
+    return estimate;
+  }
+
+ private:
+  /// Area of the disc by that of the boxes.
+  float corrected(const GatherPoint& at, const PhotonMap& map, const Disc& disc, int count) const {
+    const OctoBoxCorrection& correction = table_[disc.photons.size()];
+    if (correction.share == 0 || count == 0) return 1;
+    thread_local PlanePoints points;
+    project_photons(at, map, disc, points);
+    const float radius = std::sqrt(disc.h2 / disc.r2);
+    const Fit fit = fit_octobox(points, radius, use_);
+    const float disc_area = kPi * radius * radius;
+    if (!(fit.area > kDegenerate * disc_area)) return 1;
+    const float density = fit.count / (fit.area * correction.ratio);
+    return 1 - correction.share +
+           correction.share * density * disc_area / static_cast<float>(count);
+  }
+
+  float published(const GatherPoint& at, const PhotonMap& map, const Disc& disc) const {
+    thread_local PlanePoints points;
+    project_inner_photons(at, map, disc, points);
+    const float disc_area = kPi * disc.h2 / disc.r2;
+    const float area = published_octobox_area(points, use_);
+    return area > kDegenerate * disc_area ? disc_area / area : 1;
+  }
+
+  EstimatorConfig config_;
+  OctantUse use_;
+  std::vector<OctoBoxCorrection> table_;  // by number of photons
+};
+
+}  // namespace
+
+std::unique_ptr<Estimator> make_octobox(const EstimatorConfig& config) {
+  return std::make_unique<OctoBox>(config);
+}
+
+}  // namespace octolux

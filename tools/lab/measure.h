@@ -1,0 +1,64 @@
+// Estimators against truth, without rendering.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "estimators/estimator.h"
+#include "tools/lab/world.h"
+
+namespace octolux {
+
+/// A kernel under test: "octobox", or with its options "octobox:eight:published".
+struct LabKernel {
+  std::string name;  // as typed
+  EstimatorConfig config;
+};
+/// Throws Error for anything that is no kernel with legal options.
+LabKernel parse_lab_kernel(const std::string& text);
+
+struct LabSettings {
+  std::vector<LabKernel> kernels;
+  std::vector<int> neighbours;
+  int runs = 4000;    // look-ups for 50 photons and fewer; in proportion fewer for more
+  double angle = -1;  // [degrees]; < 0: sixteen angles over the whole turn
+  double shrink = 1;  // of the bandwidth
+  PhotonPattern pattern = PhotonPattern::poisson;
+  std::uint64_t seed = 1;
+};
+
+/// Statistics of estimate / truth over many look-ups.
+struct LabResult {
+  std::string kernel;
+  int neighbours = 0;
+  double angle = -1;
+  int runs = 0;
+  double mean = 0;
+  double standard_error = 0;  // of the mean
+  double deviation = 0;       // of one look-up
+  double nanoseconds = 0;     // per query in a map of an open plane; 0: not measured
+  double bias() const { return mean - 1; }
+  double rmse() const;
+};
+
+/// One result per kernel and number of neighbours.
+std::vector<LabResult> measure(const LabLayout& layout, const LabSettings& settings);
+
+/// Adds the time of a query to each result.
+void measure_time(const LabSettings& settings, std::vector<LabResult>& results);
+
+/// A white surface at a query, so that pi times the radiance is the irradiance.
+class LabQuery {
+ public:
+  LabQuery(Vec3 position, Vec3 normal);
+  Estimate irradiance(const Estimator& estimator, const PhotonMap& map, const Bandwidth& bandwidth,
+                      const RayCaster* caster, float turn) const;
+
+ private:
+  std::unique_ptr<Bsdf> white_;
+  SurfacePoint point_;
+};
+
+}  // namespace octolux
