@@ -79,7 +79,7 @@ class PhotonTreeWalk {
 
   PhotonTreeWalk(const PhotonTree& tree, Vec3 position)
       : tree_(tree), position_{position.x, position.y, position.z} {
-    if (tree.leaf_count() > 0) stack_[size_++] = {};
+    if (tree.leaf_count() > 0) stack_[size_++] = {1, 0, {0, 0, 0}};
   }
 
   /// The next block with a part at a squared distance below `limit`, or kEnd.
@@ -96,9 +96,9 @@ class PhotonTreeWalk {
 
  private:
   struct Cell {
-    std::uint32_t node = 1;
-    float distance2 = 0;
-    std::array<float, 3> offset{};  // per axis, from the position to the cell
+    std::uint32_t node;
+    float distance2;
+    std::array<float, 3> offset;  // per axis, from the position to the cell
   };
   /// Fewer than 2^32 photons make fewer than 2^28 leaves, so a path has fewer than 29 inner nodes.
   static constexpr int kStackSize = 32;
@@ -121,7 +121,7 @@ class PhotonTreeWalk {
 
   const PhotonTree& tree_;
   std::array<float, 3> position_;
-  std::array<Cell, kStackSize> stack_;
+  std::array<Cell, kStackSize> stack_;  // not initialised, except for what was pushed
   int size_ = 0;
 };
 

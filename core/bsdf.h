@@ -61,7 +61,8 @@ class Bsdf {
 
   /// A direction drawn from the lobes of the kinds in `lobes`; empty if there is none or it is
   /// black. `u_lobe` chooses the lobe, `u` the direction; both uniform in [0, 1).
-  /// For a non-delta sample: weight = f(wo, wi, lobes) |cos wi| / pdf_w(wo, wi, lobes).
+  /// For a non-delta sample: weight = f(wo, wi, lobes) |cos wi| / pdf_w(wo, wi, lobes), so where a
+  /// near-specular and a smooth lobe overlap it carries both; see Scattering::sample_sorted.
   virtual std::optional<BsdfSample> sample(const SurfacePoint& at, Vec3 wo, float u_lobe, Vec2 u,
                                            Lobes lobes, Carried carried) const = 0;
 
@@ -121,7 +122,7 @@ struct RoughDielectricConfig {
   MicrofacetKind kind = MicrofacetKind::beckmann;
   float alpha = 0.1f;
 };
-/// Walter et al., EGSR 2007.
+/// Walter et al., EGSR 2007. `eta` must not be 1: a boundary between equals has no normals.
 std::unique_ptr<Bsdf> make_rough_dielectric(const RoughDielectricConfig& config);
 
 struct ConductorConfig {

@@ -190,7 +190,7 @@ class QuadricLight final : public EmittingSurface {
     if (radius_ == 0) return std::nullopt;
     const Vec3d d = center_ - Vec3d(x);
     const double distance = length(d);
-    const Vec3 extent = abs(to_float(center_)) + Vec3(1, 1, 1) * static_cast<float>(radius_);
+    const Vec3 extent = abs(to_float(center_)) + Vec3{1, 1, 1} * static_cast<float>(radius_);
     if (!(distance > radius_ + position_error_bound(extent))) return std::nullopt;
     const double sin_max = radius_ / distance;
     const double cos_max = std::sqrt((distance - radius_) * (distance + radius_)) / distance;

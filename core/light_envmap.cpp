@@ -5,8 +5,9 @@
 // Four neighbouring texels span a cell. A cell is chosen with probability proportional to its exact
 // integral of luminance over solid angle, a place in it with density proportional to the bilinear
 // luminance: radiance / pdf_w is then constant for a grey picture but for the ratio of sin theta to
-// its mean in the cell, at most 2. sample() evaluates radiance and density for the direction it has
-// rounded, so both agree with radiance() and pdf_w() even across the border of a cell.
+// its luminance-weighted mean in the cell, at most 3. sample() evaluates radiance and density for
+// the direction it has rounded, so both agree with radiance() and pdf_w() even across the border of
+// a cell.
 #include <array>
 #include <cmath>
 #include <numbers>

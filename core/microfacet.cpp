@@ -54,7 +54,7 @@ Vec2 sample_beckmann_slopes(float c, Vec2 u) {
     slope = erf_inverse(inside_unit(x));
     const float error = 1 + x + t * std::exp(-slope * slope) - target;
     const float rate = 1 - slope * (s / c);
-    if (!(rate > 0) || std::abs(error) <= 1e-6f * target) break;
+    if (!(rate > 0) || std::abs(error) <= 4 * 0x1p-23f * (1 + target)) break;  // rounding
     x -= error / rate;
   }
   return {slope, slope_y};

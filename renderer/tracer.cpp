@@ -32,10 +32,11 @@ namespace {
 
 /// A ray from `from` that ends (t = 1) at the light, both ends moved off their surfaces.
 Ray connect(const SurfacePoint& from, const LightSample& light) {
-  const Vec3 origin = offset_origin(from.position, from.ng, from.error, light.wi);
-  if (light.infinite) return {origin, light.wi};
-  const Vec3 target = offset_origin(light.at.position, light.at.ng, light.at.error, -light.wi);
-  return {origin, target - origin, 0, 1};
+  if (light.infinite) {
+    return {offset_origin(from.position, from.ng, from.error, light.wi), light.wi};
+  }
+  return connecting_ray({from.position, from.ng, from.error},
+                        {light.at.position, light.at.ng, light.at.error});
 }
 
 }  // namespace
@@ -55,8 +56,7 @@ Rgb Tracer::visibility(const SurfacePoint& from, const LightSample& light, int m
     const Scattering at(point, bsdf, -light.wi, Carried::radiance);
     share *= at.pass_through();
     if (is_black(share)) return share;
-    const Ray rest = at.spawn(light.wi);
-    ray = light.infinite ? rest : Ray{rest.origin, ray.origin + ray.direction - rest.origin, 0, 1};
+    ray = connect(point, light);
     count(ray, true);
   }
 }

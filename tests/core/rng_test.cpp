@@ -104,6 +104,21 @@ TEST(Rng, NeighbouringKeysAreUncorrelated) {
   }
 }
 
+TEST(Rng, NeighbouringKeysAreJointlyUniform) {
+  // Dependence that no correlation shows: PCG sequences whose states differ by a constant, as keys
+  // without a hash would make them, fill this grid unevenly.
+  constexpr int kKeys = 200000, kDepth = 4, kGrid = 64;
+  std::vector<std::vector<double>> cells(kDepth, std::vector<double>(kGrid * kGrid, 0.0));
+  for (int i = 0; i < kKeys; ++i) {
+    Rng here(6, Stream::test, 0, 2 * i), next(6, Stream::test, 0, 2 * i + 1);
+    for (int d = 0; d < kDepth; ++d) {
+      const int row = static_cast<int>(here.uniform() * kGrid);
+      ++cells[d][row * kGrid + static_cast<int>(next.uniform() * kGrid)];
+    }
+  }
+  for (int d = 0; d < kDepth; ++d) EXPECT_GT(uniformity_p(cells[d]), sidak(kAlpha, kDepth)) << d;
+}
+
 TEST(Rng, CorrelationTestSeesRelatedSequences) {
   Correlation related;  // one part in ten in common
   for (int i = 0; i < 20000; ++i) {

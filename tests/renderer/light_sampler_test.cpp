@@ -1,0 +1,109 @@
+// The choice among lights: pmfs as documented, counts as the pmfs say.
+#include "renderer/light_sampler.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "core/rng.h"
+#include "renderer/scene.h"
+#include "tests/stats.h"
+
+namespace octolux {
+namespace {
+
+using namespace test;
+
+Shape square(float side, int light) {
+  TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}, {side, 0, 0}, {side, side, 0}, {0, side, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  Shape shape;
+  shape.geometry = mesh;
+  shape.light = light;
+  return shape;
+}
+
+/// Shapes 0 and 2 shine (3 pi and 1 pi W), 3 is black; a point light of 4 pi W; sky of 2 pi W.
+void fill(Scene& scene) {
+  scene.shapes = {square(1, 0), square(1, -1), square(0.5f, 2), square(1, 3)};
+  scene.lights.push_back(make_area_light(scene.shapes[0], Rgb(3)));
+  scene.lights.push_back(make_point_light({0, 0, 1}, {0, 0, 3}));  // mean of channels: 4 pi
+  scene.lights.push_back(make_area_light(scene.shapes[2], Rgb(4)));
+  scene.lights.push_back(make_area_light(scene.shapes[3], Rgb(0)));
+  auto sky = make_constant_light(Rgb(0.5f));
+  sky->set_scene_bounds({}, std::sqrt(kInvPi));
+  scene.environment = sky.get();
+  scene.lights.push_back(std::move(sky));
+}
+
+double share_p(const Scene& scene, const std::vector<double>& pmf,
+               const std::function<LightSampler::Choice(float)>& choose) {
+  constexpr int kDraws = 100000;
+  std::vector<double> counts(pmf.size(), 0.0), expected;
+  Rng rng(1, Stream::test, 90, 0);
+  for (int i = 0; i < kDraws; ++i) {
+    const LightSampler::Choice c = choose(rng.uniform());
+    for (std::size_t l = 0; l < pmf.size(); ++l) {
+      if (scene.lights[l].get() != c.light) continue;
+      ++counts[l];
+      EXPECT_FLOAT_EQ(c.pmf, static_cast<float>(pmf[l]));
+    }
+  }
+  for (const double p : pmf) expected.push_back(p * kDraws);
+  return chi2_test_p(counts, expected);
+}
+
+TEST(LightSampler, ChoosesAsDocumented) {
+  Scene scene;
+  fill(scene);
+  const LightSampler sampler(scene);
+  const std::vector<double> power{0.3, 0.4, 0.1, 0, 0.2};
+  std::vector<double> direct;
+  for (const double p : power) direct.push_back(p > 0 ? 0.125 + 0.5 * p : 0);
+  EXPECT_GT(share_p(scene, direct, [&](float u) { return sampler.sample(u); }), kAlpha);
+  EXPECT_GT(share_p(scene, power, [&](float u) { return sampler.sample_for_emission(u); }), kAlpha);
+  EXPECT_FLOAT_EQ(sampler.pmf_of_shape(0), 0.275f);
+  EXPECT_EQ(sampler.pmf_of_shape(1), 0);
+  EXPECT_FLOAT_EQ(sampler.pmf_of_shape(2), 0.175f);
+  EXPECT_EQ(sampler.pmf_of_shape(3), 0);
+  EXPECT_FLOAT_EQ(sampler.pmf_of_environment(), 0.225f);
+  EXPECT_NEAR(sampler.total_power(), 10 * std::acos(-1.0), 1e-5);
+}
+
+TEST(LightSampler, PhotonFluxOverPmfIsTheTotalPowerForGreyLights) {
+  Scene scene;
+  fill(scene);
+  const LightSampler sampler(scene);
+  Rng rng(1, Stream::test, 91, 0);
+  for (int i = 0; i < 1000; ++i) {
+    const LightSampler::Choice c = sampler.sample_for_emission(rng.uniform());
+    const EmittedPhoton photon = c.light->emit(rng.uniform2(), {0.5f, 0.5f});
+    EXPECT_NEAR(mean(photon.flux) / c.pmf / sampler.total_power(), 1, 1e-6);
+  }
+}
+
+TEST(LightSampler, NoLightOrNoPower) {
+  Scene dark;
+  const LightSampler none(dark);
+  EXPECT_EQ(none.sample(0.5f).light, nullptr);
+  EXPECT_EQ(none.sample_for_emission(0.5f).light, nullptr);
+  EXPECT_EQ(none.pmf_of_environment(), 0);
+  EXPECT_EQ(none.total_power(), 0);
+  dark.lights.push_back(make_point_light({0, 0, 0}, Rgb(0)));
+  const LightSampler black(dark);
+  EXPECT_EQ(black.sample(0.5f).light, nullptr);
+  EXPECT_EQ(black.sample(0.5f).pmf, 0);
+  EXPECT_EQ(black.sample_for_emission(0).light, nullptr);
+}
+
+TEST(LightSampler, EnormousPowerIsNotAnError) {
+  Scene scene;
+  scene.lights.push_back(make_point_light({0, 0, 0}, Rgb(3e38f)));
+  const LightSampler sampler(scene);
+  EXPECT_EQ(sampler.sample(0.5f).pmf, 1);
+  EXPECT_EQ(sampler.sample_for_emission(0.5f).light, scene.lights[0].get());
+}
+
+}  // namespace
+}  // namespace octolux
