@@ -29,10 +29,11 @@ struct LabArguments {
 };
 
 std::string describe_cases() {
-  std::string text = "Cases (lengths in units of the bandwidth; defaults in brackets):\n";
+  std::string text = "Cases (lengths in units of the bandwidth; [default distance, size]):\n";
   for (const LabCase& c : lab_cases()) {
-    text += fmt::format("  {:<10} {} [--distance {:g} --size {:g}]\n", c.name, c.help, c.distance,
-                        c.size);
+    text += fmt::format("  {:<10} {}", c.name, c.help);
+    if (c.distance > 0 || c.size > 0) text += fmt::format(" [{:g}, {:g}]", c.distance, c.size);
+    text += "\n";
   }
   return text +
          "\nKernels: those of octolux render, with options: octobox:eight, cone:published,\n"
@@ -45,24 +46,24 @@ std::string describe_cases() {
 void add_options(CLI::App& verb, LabArguments& a) {
   verb.footer(describe_cases());
   verb.add_option("--case", a.cases, "Cases, or all (default: plane wall corner reentrant strip)")
-      ->type_name("NAME...");
-  verb.add_option("--kernel", a.kernels, "Kernels with their options")->type_name("NAME...");
+      ->type_name("NAME");
+  verb.add_option("--kernel", a.kernels, "Kernels with their options")->type_name("NAME");
   verb.add_option("--neighbours", a.neighbours, "Photons in a look-up (default: 3 to 2000)")
-      ->type_name("N...")
-      ->check(CLI::Range(1, 100000));
+      ->type_name("N")
+      ->check(CLI::Range(1, 100000).description(""));
   verb.add_option("--runs", a.runs, "Look-ups of 50 photons; of more, in proportion fewer (4000)")
       ->type_name("N")
-      ->check(CLI::Range(16, 100000000));
+      ->check(CLI::Range(16, 100000000).description(""));
   verb.add_option("--angle", a.angle, "Turn the case by this angle (default: all round)")
       ->type_name("DEGREES")
-      ->check(CLI::Range(0.0, 360.0));
+      ->check(CLI::Range(0.0, 360.0).description(""));
   verb.add_flag("--angles", a.angles, "Every 7.5 degrees from 0 to 90, each by itself");
   verb.add_option("--distance", a.distance, "Of the query from what the case has nearby")
       ->type_name("D");
   verb.add_option("--size", a.size, "What it means depends on the case")->type_name("S");
   verb.add_option("--shrink", a.shrink, "Shrink the bandwidth, as later passes of a render do (1)")
       ->type_name("S")
-      ->check(CLI::Range(1e-3, 1.0));
+      ->check(CLI::Range(1e-3, 1.0).description(""));
   verb.add_flag("--low-discrepancy", a.low_discrepancy, "Evenly spread photons, not Poisson");
   verb.add_flag("--time", a.time, "Measure nanoseconds per query as well");
   verb.add_option("--seed", a.seed, "Another seed draws other photons (1)")->type_name("N");

@@ -15,7 +15,8 @@ namespace {
 
 constexpr int kFault = 1;
 constexpr int kBadInput = 2;
-constexpr char kNoCommand[] = "no command given; legal: info, lab, render; octolux --help says more";
+constexpr char kNoCommand[] =
+    "no command given; legal: info, lab, render; octolux --help says more";
 
 int complain(const std::string& message, int exit_code) {
   fmt::print(stderr, "octolux: {}\n", message);
@@ -67,7 +68,7 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", "octolux " OCTOLUX_VERSION, "Print the version and exit");
   app.get_formatter()->column_width(36);
   app.require_subcommand(1);
-  app.footer("octolux render --help, octolux info --help and octolux lab --help list the options of each.");
+  app.footer("octolux COMMAND --help lists the options of each.");
   std::vector<std::unique_ptr<Command>> commands;
   commands.push_back(make_render_command(app, join_arguments(argc, argv)));
   commands.push_back(make_info_command(app));

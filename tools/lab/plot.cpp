@@ -37,10 +37,10 @@ struct Panel {
 std::vector<Series> series_of(const LabTable& table) {
   std::vector<Series> all;
   for (const LabResult& r : table.results) {
-    const auto found =
+    auto series =
         std::find_if(all.begin(), all.end(), [&](const Series& s) { return s.kernel == r.kernel; });
-    if (found == all.end()) all.push_back({r.kernel, {}});
-    (found == all.end() ? all.back() : *found).points.push_back(&r);
+    if (series == all.end()) series = all.insert(all.end(), Series{r.kernel, {}});
+    series->points.push_back(&r);
   }
   return all;
 }
