@@ -8,8 +8,9 @@
 // finds free edges). Where the disc lies in R, that is the octobox kernel. Elsewhere one OctoBox
 // around the photons, and photons strictly inside it over the area that box, R and disc have in
 // common, have the mean of the density for the same reason (octobox_fit.h): R is known, and given
-// the box the photons inside are uniform. At few photons it hands over to the flat estimate over
-// R and disc, as that kernel does to the disc. Immutable, thread-safe.
+// the box the photons inside are uniform. Its axes are those of the feelers, which no photon has
+// chosen, so there is nothing to divide by; R knows the walls' angles. At few photons it hands over
+// to the flat estimate over R and disc, as that kernel does to the disc. Immutable, thread-safe.
 #include <memory>
 
 #include "estimators/octobox_fit.h"
@@ -24,18 +25,33 @@ namespace {
 /// Smaller shares of the disc are no area: the photons are on a line, the query is in a wall.
 constexpr double kDegenerate = 1e-5;
 
-/// The sides of a box, given in units of `unit`, as half planes in the region's axes.
-std::array<HalfPlane, kSides> half_planes(const AlignedBox& aligned, const Frame& frame,
-                                          const PhotonRegion& region, float unit) {
+/// The sides of a box, given in units of `unit`, as half planes.
+std::array<HalfPlane, kSides> half_planes(const Lanes& box, float unit) {
   static constexpr float kHalf = 0.70710678f;
+  static constexpr std::array<Vec2, kSides> kNormals{{{1, 0},
+                                                      {kHalf, kHalf},
+                                                      {0, 1},
+                                                      {-kHalf, kHalf},
+                                                      {-1, 0},
+                                                      {-kHalf, -kHalf},
+                                                      {0, -1},
+                                                      {kHalf, -kHalf}}};
   std::array<HalfPlane, kSides> lines;
-  Vec2 a = aligned.axis;
-  for (int i = 0; i < kSides; ++i) {
-    const Vec3 direction = frame.s * a.x + frame.t * a.y;
-    lines[i] = {{dot(direction, region.s), dot(direction, region.t)}, aligned.box[i] * unit};
-    a = {(a.x - a.y) * kHalf, (a.x + a.y) * kHalf};
-  }
+  for (int i = 0; i < kSides; ++i) lines[i] = {kNormals[i], box[i] * unit};
   return lines;
+}
+
+/// The look-up's photons in the region's axes, in units of the look-up's radius.
+void project_into(const PhotonRegion& region, const GatherPoint& at, const PhotonMap& map,
+                  const Disc& disc, PlanePoints& points) {
+  const Vec3 origin = at.at.point().position;
+  const float scale = 1 / std::sqrt(disc.r2);
+  points.resize(static_cast<int>(disc.photons.size()));
+  int i = 0;
+  for (const Neighbour& near : disc.photons) {
+    const Vec3 d = (map.position(near.photon) - origin) * scale;
+    points.set(i++, {dot(d, region.s), dot(d, region.t)}, near.distance2 < disc.h2);
+  }
 }
 
 class FeelerFilter final : public Estimator {
@@ -97,14 +113,13 @@ class FeelerFilter final : public Estimator {
     const OctoBoxCorrection& correction = one_[disc.photons.size()];
     if (correction.share == 0) return 1;
     thread_local PlanePoints points;
-    project_photons(at, map, disc, points);
-    const AlignedBox aligned = align_octobox(points);
-    const auto lines = half_planes(aligned, Frame::from_normal(at.at.facing_normal()),
-                                   found.region.photons(), std::sqrt(disc.r2));
+    project_into(found.region.photons(), at, map, disc, points);
+    const Lanes box = octobox_with_origin(points);
+    const auto lines = half_planes(box, std::sqrt(disc.r2));
     const double box_area = found.region.integral(std::sqrt(disc.h2), 0, lines);
     const float scale = 1 / disc.r2;
-    const Fit fit{count_inside(points, aligned.box), static_cast<float>(box_area) * scale};
-    return blend(correction, fit, static_cast<float>(area) * scale, count);
+    const Fit fit{count_inside(points, box), static_cast<float>(box_area) * scale};
+    return blend({1, correction.share}, fit, static_cast<float>(area) * scale, count);
   }
 
   static double blend(const OctoBoxCorrection& correction, const Fit& fit, float area, int count) {

@@ -17,7 +17,33 @@ float smooth_step(float low, float high, float x) {
   return t * t * (3 - 2 * t);
 }
 
-Vec2 turned_by(Vec2 a, Vec2 b) { return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x}; }
+/// A box that leaves much of the disc empty has met an edge, and should lie along it. The principal
+/// axes are only near that at few photons, and 22.5 degrees off in a corner of 45: so of six axes
+/// the one with the smallest area is taken. On an open plane a box is hardly ever so small, so this
+/// does not disturb the mean there.
+Lanes align(PlanePoints& points) {
+  constexpr int kAxes = 6;
+  constexpr float kLargestShare = 0.75f;
+  constexpr float kMissing = 12.5f;  // photons' worth of disc; the box misses 7 on average
+  points.turn(principal_axis(points));
+  Lanes best = octobox_with_origin(points);
+  float best_area = octobox_area(best, 1);
+  const float share = std::min(kLargestShare, 1 - kMissing / static_cast<float>(points.size()));
+  if (best_area > share * kPi) return best;
+  thread_local PlanePoints turned;
+  turned = points;
+  constexpr Vec2 kStep{0.99144486137381041f, 0.13052619222005159f};  // 7.5 degrees
+  Vec2 axis{1, 0}, best_axis = axis;
+  for (int i = 1; i < kAxes; ++i) {
+    turned.turn(kStep);
+    axis = {axis.x * kStep.x - axis.y * kStep.y, axis.x * kStep.y + axis.y * kStep.x};
+    const float area = octobox_area(octobox_with_origin(turned), 1);
+    if (area < best_area) best_area = area, best_axis = axis;
+  }
+  if (best_axis.x == 1) return best;
+  points.turn(best_axis);
+  return octobox_with_origin(points);
+}
 
 /// 1 where a point holds up a side of the box, 0 inside it. Compares what octobox_with_origin
 /// computed, bit for bit.
@@ -83,35 +109,6 @@ OctantUse parse_octant_use(const std::string& name) {
   throw Error(unknown_name("octants", name, {"auto", "one", "eight"}));
 }
 
-/// A box that leaves much of the disc empty has met an edge, and should lie along it. The principal
-/// axes are only near that at few photons, and 22.5 degrees off in a corner of 45: so of six axes
-/// the one with the smallest area is taken. On an open plane a box is hardly ever so small, so this
-/// does not disturb the mean there.
-AlignedBox align_octobox(PlanePoints& points) {
-  constexpr int kAxes = 6;
-  constexpr float kLargestShare = 0.75f;
-  constexpr float kMissing = 12.5f;  // photons' worth of disc; the box misses 7 on average
-  const Vec2 principal = principal_axis(points);
-  points.turn(principal);
-  Lanes best = octobox_with_origin(points);
-  float best_area = octobox_area(best, 1);
-  const float share = std::min(kLargestShare, 1 - kMissing / static_cast<float>(points.size()));
-  if (best_area > share * kPi) return {best, principal};
-  thread_local PlanePoints turned;
-  turned = points;
-  constexpr Vec2 kStep{0.99144486137381041f, 0.13052619222005159f};  // 7.5 degrees
-  Vec2 axis{1, 0}, best_axis = axis;
-  for (int i = 1; i < kAxes; ++i) {
-    turned.turn(kStep);
-    axis = turned_by(axis, kStep);
-    const float area = octobox_area(octobox_with_origin(turned), 1);
-    if (area < best_area) best_area = area, best_axis = axis;
-  }
-  if (best_axis.x == 1) return {best, principal};
-  points.turn(best_axis);
-  return {octobox_with_origin(points), turned_by(principal, best_axis)};
-}
-
 float count_inside(const PlanePoints& points, const Lanes& box) {
   Lanes count{};
   for (int i = 0; i < points.padded_size(); i += kSides) {
@@ -126,7 +123,7 @@ float count_inside(const PlanePoints& points, const Lanes& box) {
 }
 
 Fit fit_octobox(PlanePoints& points, float radius, OctantUse use) {
-  const Lanes box = align_octobox(points).box;
+  const Lanes box = align(points);
   Lanes shares{};
   if (use == OctantUse::eight) shares.fill(1);
   if (use == OctantUse::automatic) shares = own_shares(points);

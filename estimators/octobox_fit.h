@@ -33,13 +33,6 @@ struct Fit {
   float area = 0;
 };
 
-/// One OctoBox around points and query, in the axes that suit the points.
-struct AlignedBox {
-  Lanes box{};
-  Vec2 axis{1, 0};  // unit, along the box's first side's normal, in the points' former axes
-};
-/// Leaves the points turned into the box's axes.
-AlignedBox align_octobox(PlanePoints& points);
 /// Points of the bandwidth strictly inside their box.
 float count_inside(const PlanePoints& points, const Lanes& box);
 
