@@ -87,7 +87,8 @@ class Room {
   std::unique_ptr<RayCaster> caster_;
 };
 
-/// A query at (x, y) on the floor, seen from straight above; `length` of the feelers before the map.
+/// A query at (x, y) on the floor, seen from straight above; `length` of the feelers before the
+/// map.
 inline FeelerQuery query_at(Room& room, Vec2 p, float length, float turn, float z = 1) {
   FeelerQuery query;
   query.point = room.look_down(p, z).value();
@@ -102,42 +103,6 @@ inline FeelerQuery query_at(Room& room, Vec2 p, float length, float turn, float 
 inline FeelerQuery moved_to(const Room& room, FeelerQuery floor, Vec2 p) {
   floor.point.position = room.placement().point({p.x, p.y, 0});
   return floor;
-}
-
-/// What a region is worth, against the truth. Shares of the region's area in the disc.
-struct Quality {
-  double excess = 0;    // in the region, but not free: the bias for constant irradiance, or a leak
-  double share = 0;     // area of the region over the free area (star-shaped or not) of the disc
-  double integral = 0;  // sampled area over FreeRegion::integral
-};
-
-/// Samples the disc of radius h (before the map) on a low-discrepancy set. `truth(p)`: is the floor
-/// free at p?
-template <class Truth>
-Quality judge(const Room& room, const FeelerQuery& query, const FreeRegion& region, Vec2 x, float h,
-              const Truth& truth, int samples = 4000) {
-  const Placement& map = room.placement();
-  int in_region = 0, in_truth = 0, excess = 0;
-  for (int i = 0; i < samples; ++i) {
-    const double radius = h * std::sqrt((i + 0.5) / samples);
-    const double angle = 2.399963229728653 * i;  // the golden angle
-    const Vec2 d{static_cast<float>(radius * std::cos(angle)),
-                 static_cast<float>(radius * std::sin(angle))};
-    const bool inside = region.photons().contains(map.vector({d.x, d.y, 0}) * map.scale);
-    const bool free = truth(x + d);
-    in_region += inside;
-    in_truth += free;
-    excess += inside && !free;
-  }
-  const double disc = std::numbers::pi * h * h;
-  const float scaled = h * map.scale;
-  Quality quality;
-  quality.excess = in_region ? static_cast<double>(excess) / in_region : 0;
-  quality.share = in_truth ? static_cast<double>(in_region) / in_truth : 0;
-  quality.integral = disc * in_region / samples /
-                     (region.integral(scaled, 0) / (static_cast<double>(map.scale) * map.scale));
-  static_cast<void>(query);
-  return quality;
 }
 
 }  // namespace octolux::test
