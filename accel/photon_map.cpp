@@ -70,17 +70,27 @@ struct BlockDistances {
       distance2[i] = dx * dx + dy * dy + dz * dz + squash * (along * along);
     }
   }
+  /// A bit for each lane.
+  std::uint32_t nearer_than(float limit) const {
+    std::uint32_t lanes = 0;
+    for (std::uint32_t i = 0; i < PhotonTree::kBlockSize; ++i) {
+      lanes |= static_cast<std::uint32_t>(distance2[i] < limit) << i;
+    }
+    return lanes;
+  }
 };
 
 /// Where a look-up may find photons. Decided at compile time, so a look-up without a region pays
 /// nothing for those with one.
 struct Anywhere {
-  bool contains(Vec3) const { return true; }
+  bool contains(Vec3, float) const { return true; }
 };
 struct Inside {
   const PhotonRegion& region;
   Vec3 position;
-  bool contains(Vec3 photon) const { return region.contains(photon - position); }
+  bool contains(Vec3 photon, float distance2) const {
+    return distance2 < region.clearance * region.clearance || region.contains(photon - position);
+  }
 };
 
 float squash_factor(const PhotonQuery& query) {
@@ -202,13 +212,14 @@ std::span<const Neighbour> PhotonMap::nearest_in(Region region, const PhotonQuer
     const std::uint32_t b = walk.next<PhotonTreeWalk::Order::nearest_first>(limit);
     if (b == PhotonTreeWalk::kEnd) break;
     const BlockDistances block(tree_.block(b), query, squash);
-    for (std::uint32_t lane = 0; lane < PhotonTree::kBlockSize; ++lane) {
+    for (std::uint32_t near = block.nearer_than(limit); near != 0; near &= near - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(near));
       const std::uint32_t photon = b * PhotonTree::kBlockSize + lane;
-      if (!(block.distance2[lane] < limit) || !counts(payloads_[photon]) ||
-          !region.contains(tree_.position(photon))) {
+      const float distance2 = block.distance2[lane];
+      if (!counts(payloads_[photon]) || !region.contains(tree_.position(photon), distance2)) {
         continue;
       }
-      items[count++] = {block.distance2[lane], photon};
+      items[count++] = {distance2, photon};
     }
     if (count >= full) {
       limit = keep_best(items, k, count);
@@ -233,13 +244,14 @@ std::span<const Neighbour> PhotonMap::within_in(Region region, const PhotonQuery
     const std::uint32_t b = walk.next<PhotonTreeWalk::Order::left_to_right>(limit);
     if (b == PhotonTreeWalk::kEnd) break;
     const BlockDistances block(tree_.block(b), query, squash);
-    for (std::uint32_t lane = 0; lane < PhotonTree::kBlockSize; ++lane) {
+    for (std::uint32_t near = block.nearer_than(limit); near != 0; near &= near - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(near));
       const std::uint32_t photon = b * PhotonTree::kBlockSize + lane;
-      if (!(block.distance2[lane] < limit) || !counts(payloads_[photon]) ||
-          !region.contains(tree_.position(photon))) {
+      const float distance2 = block.distance2[lane];
+      if (!counts(payloads_[photon]) || !region.contains(tree_.position(photon), distance2)) {
         continue;
       }
-      buffer.items.push_back({block.distance2[lane], photon});
+      buffer.items.push_back({distance2, photon});
     }
   }
   return buffer.items;

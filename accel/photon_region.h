@@ -41,6 +41,7 @@ struct PhotonRegion {
 
   Vec3 s, t;  // orthonormal, in the tangent plane; sector 0 begins at s and runs towards t
   std::array<Sector, kSectors> sectors;
+  float clearance = 0;  // [m] no boundary is nearer; may be too low, saves time if not
 
   /// The sector a point of the plane lies in.
   static int sector_of(Vec2 p) {

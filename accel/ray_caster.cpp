@@ -184,7 +184,7 @@ bool RayCaster::occluded(const Ray& ray) const {
   return query.tfar < 0;
 }
 
-std::array<PacketHit, RayPacket::kSize> RayCaster::closest(const RayPacket& packet) const {
+std::array<PacketHit, RayPacket::kSize> RayCaster::closest_hits(const RayPacket& packet) const {
   constexpr int kSize = RayPacket::kSize;
   alignas(32) std::array<int, kSize> valid;
   for (int i = 0; i < kSize; ++i) valid[i] = (packet.active >> i & 1) ? -1 : 0;

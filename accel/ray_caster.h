@@ -53,7 +53,7 @@ class RayCaster {
   /// Is anything hit at t in (t_min, t_max)?
   bool occluded(const Ray& ray) const;
   /// Closest hits of the active lanes.
-  std::array<PacketHit, RayPacket::kSize> closest(const RayPacket& packet) const;
+  std::array<PacketHit, RayPacket::kSize> closest_hits(const RayPacket& packet) const;
   /// Corners of a primitive that is a triangle.
   std::optional<std::array<Vec3, 3>> triangle(std::uint32_t shape, std::uint32_t primitive) const;
   /// The surface at a hit.

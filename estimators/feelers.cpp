@@ -78,7 +78,7 @@ Feelers trace_feelers(const RayCaster& caster, const FeelerQuery& query,
   }
   for (std::size_t round = 0; packet.active != 0; ++round) {
     const float climb = round < kClimbs.size() ? kClimbs[round] : 0;
-    const auto hits = caster.closest(packet);
+    const auto hits = caster.closest_hits(packet);
     std::uint32_t again = 0;
     for (int i = 0; i < feelers.count; ++i) {
       if (!hits[i].hit()) continue;

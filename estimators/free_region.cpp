@@ -92,7 +92,7 @@ void verify(const RayCaster& caster, const FeelerQuery& query, const TangentPlan
     packet.active |= 1u << i;
   }
   if (lanes == 0) return;
-  const auto hits = caster.closest(packet);
+  const auto hits = caster.closest_hits(packet);
   for (int i = 0; i < query.feelers; ++i) {
     if (!hits[i].hit()) continue;
     Gap& gap = gaps[i];
@@ -122,12 +122,14 @@ FreeRegion::FreeRegion(Vec3 normal) {
   const Frame frame = Frame::from_normal(normal);
   region_.s = frame.s;
   region_.t = frame.t;
+  region_.clearance = kInfinity;
 }
 
 FreeRegion::FreeRegion(const RayCaster& caster, const FeelerQuery& query) {
   const TangentPlane plane(query);
   region_.s = plane.s;
   region_.t = plane.t;
+  region_.clearance = kInfinity;
   reach_ = query.length * std::cos(kPi / static_cast<float>(query.feelers));
   Feelers feelers = trace_feelers(caster, query, plane);
   if (query.edges) stop_at_edges(caster, query, plane, feelers);
@@ -148,7 +150,7 @@ FreeRegion::FreeRegion(const RayCaster& caster, const FeelerQuery& query) {
 
 void FreeRegion::add(int sector, int slot, HalfPlane line) {
   region_.sectors[sector].set(slot, line);
-  clearance_ = std::min(clearance_, line.c);
+  region_.clearance = std::min(region_.clearance, line.c);
 }
 
 float FreeRegion::extent() const {
@@ -186,7 +188,7 @@ PhotonRegion feeler_box(const RayCaster& caster, const FeelerQuery& query) {
                       query.length};
     packet.active |= i % step == 0 ? 1u << i : 0;
   }
-  const auto hits = caster.closest(packet);
+  const auto hits = caster.closest_hits(packet);
   for (int sector = 0; sector < PhotonRegion::kSectors; ++sector) {
     for (int slot = 0; slot < PhotonRegion::kLines; ++slot) {
       const int i = (sector + slot + RayPacket::kSize - 1) % RayPacket::kSize;

@@ -31,7 +31,7 @@ class FreeRegion {
   /// R is known up to this distance [m].
   float reach() const { return reach_; }
   /// No boundary is closer than this [m].
-  float clearance() const { return clearance_; }
+  float clearance() const { return region_.clearance; }
 
   /// Nothing of R is farther than this [m], if that is less than the reach; infinite if not.
   float extent() const;
@@ -44,7 +44,6 @@ class FreeRegion {
 
   PhotonRegion region_;
   float reach_ = kInfinity;
-  float clearance_ = kInfinity;
 };
 
 /// The paper's filter: the OctoBox (with 4 feelers the box) whose sides are as far away as the

@@ -167,7 +167,7 @@ void stop_at_edges(const RayCaster& caster, const FeelerQuery& query, const Tang
       packet.active |= 1u << i;
     }
     if (packet.active == 0) break;
-    const auto hits = caster.closest(packet);
+    const auto hits = caster.closest_hits(packet);
     for (int i = 0; i < feelers.count; ++i) {
       if (searches[i].done()) continue;
       if (found(plane, hits[i], packet.rays[i])) {
@@ -196,7 +196,7 @@ std::uint32_t surface_at(const RayCaster& caster, const FeelerQuery& query,
     (known ? present : packet.active) |= 1u << i;
   }
   if (packet.active == 0) return present;
-  const auto hits = caster.closest(packet);
+  const auto hits = caster.closest_hits(packet);
   for (int i = 0; i < RayPacket::kSize; ++i) {
     const bool here = (packet.active >> i & 1) && found(plane, hits[i], packet.rays[i]);
     present |= static_cast<std::uint32_t>(here) << i;

@@ -214,30 +214,6 @@ TEST(PhotonMap, EqualsBruteForceInsideRegions) {
   }
 }
 
-TEST(PhotonRegion, SectorsAreNumberedByAngle) {
-  for (int i = 0; i < 360; ++i) {
-    const float angle = (static_cast<float>(i) + 0.5f) * (kPi / 180);
-    EXPECT_EQ(PhotonRegion::sector_of({std::cos(angle), std::sin(angle)}), i / 45) << i;
-  }
-}
-
-TEST(PhotonMap, GuessesDistancesOnAPlane) {
-  std::vector<Photon> photons = random_photons(Layout::plane, 20000, 13);
-  for (Photon& p : photons) p.normal = p.wi = {0, 0, 1};
-  const PhotonMap map(photons);
-  const float expected = std::sqrt(50.0f / (20000 * kPi));
-  Rng rng = rng_of(14);
-  float sum = 0;
-  for (int i = 0; i < 200; ++i) {
-    const Vec2 u = rng.uniform2();
-    const float guess = map.rough_distance({0.1f + 0.8f * u.x, 0.1f + 0.8f * u.y, 0.5f}, 50);
-    EXPECT_TRUE(guess > expected / 3 && guess < expected * 3) << guess / expected;
-    sum += guess / 200;
-  }
-  EXPECT_NEAR(sum / expected, 1, 0.2);
-  EXPECT_EQ(PhotonMap().rough_distance({0, 0, 0}, 50), kInfinity);
-}
-
 TEST(PhotonMap, KeepsWhatItWasGiven) {
   const std::vector<Photon> photons = random_photons(Layout::volume, 777, 3);
   const PhotonMap map(photons);

@@ -45,7 +45,7 @@ TEST(RayPacket, HitsWhatSingleRaysHit) {
   int hits = 0;
   for (int i = 0; i < 2000; ++i) {
     const RayPacket packet = random_packet(rng);
-    const auto found = caster.closest(packet);
+    const auto found = caster.closest_hits(packet);
     for (int lane = 0; lane < RayPacket::kSize; ++lane) {
       const Ray& ray = packet.rays[lane];
       const std::optional<RayHit> expected = caster.closest(ray);
@@ -61,7 +61,7 @@ TEST(RayPacket, HitsWhatSingleRaysHit) {
       EXPECT_NEAR(std::abs(dot(found[lane].normal, caster.surface(*expected).ng)), 1, 1e-4f);
     }
   }
-  EXPECT_GT(hits, 1000);
+  EXPECT_GT(hits, 500);
 }
 
 TEST(RayPacket, CornersOfTrianglesOnly) {
