@@ -25,22 +25,6 @@ namespace {
 /// Smaller shares of the disc are no area: the photons are on a line, the query is in a wall.
 constexpr double kDegenerate = 1e-5;
 
-/// The sides of a box, given in units of `unit`, as half planes.
-std::array<HalfPlane, kSides> half_planes(const Lanes& box, float unit) {
-  static constexpr float kHalf = 0.70710678f;
-  static constexpr std::array<Vec2, kSides> kNormals{{{1, 0},
-                                                      {kHalf, kHalf},
-                                                      {0, 1},
-                                                      {-kHalf, kHalf},
-                                                      {-1, 0},
-                                                      {-kHalf, -kHalf},
-                                                      {0, -1},
-                                                      {kHalf, -kHalf}}};
-  std::array<HalfPlane, kSides> lines;
-  for (int i = 0; i < kSides; ++i) lines[i] = {kNormals[i], box[i] * unit};
-  return lines;
-}
-
 /// The look-up's photons in the region's axes, in units of the look-up's radius.
 void project_into(const PhotonRegion& region, const GatherPoint& at, const PhotonMap& map,
                   const Disc& disc, PlanePoints& points) {
@@ -115,8 +99,9 @@ class FeelerFilter final : public Estimator {
     thread_local PlanePoints points;
     project_into(found.region.photons(), at, map, disc, points);
     const Lanes box = octobox_with_origin(points);
-    const auto lines = half_planes(box, std::sqrt(disc.r2));
-    const double box_area = found.region.integral(std::sqrt(disc.h2), 0, lines);
+    Lanes sides = box;
+    for (float& side : sides) side *= std::sqrt(disc.r2);
+    const double box_area = found.region.area_in_box(std::sqrt(disc.h2), sides);
     const float scale = 1 / disc.r2;
     const Fit fit{count_inside(points, box), static_cast<float>(box_area) * scale};
     return blend({1, correction.share}, fit, static_cast<float>(area) * scale, count);

@@ -56,21 +56,12 @@ HalfPlane TangentPlane::free_side(Vec3 wall_normal, Vec3 p, Vec2 fallback) const
 
 Feelers trace_feelers(const RayCaster& caster, const FeelerQuery& query,
                       const TangentPlane& plane) {
-  static constexpr float kHalf = 0.70710678f;
-  static constexpr std::array<Vec2, 8> kDirections{{{1, 0},
-                                                    {kHalf, kHalf},
-                                                    {0, 1},
-                                                    {-kHalf, kHalf},
-                                                    {-1, 0},
-                                                    {-kHalf, -kHalf},
-                                                    {0, -1},
-                                                    {kHalf, -kHalf}}};
   Feelers feelers;
   feelers.count = query.feelers;
   RayPacket packet;
   for (int i = 0; i < feelers.count; ++i) {
     Feeler& feeler = feelers.all[i];
-    feeler.direction = kDirections[i * 8 / feelers.count];
+    feeler.direction = kEightDirections[i * 8 / feelers.count];
     feeler.end = query.length;
     feeler.height = plane.lift;
     packet.rays[i] = {plane.start, plane.direction(feeler.direction), 0, query.length};

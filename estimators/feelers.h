@@ -23,6 +23,16 @@
 
 namespace octolux {
 
+/// Unit vectors at 0, 45, ... degrees.
+inline constexpr std::array<Vec2, 8> kEightDirections{{{1, 0},
+                                                       {0.70710678f, 0.70710678f},
+                                                       {0, 1},
+                                                       {-0.70710678f, 0.70710678f},
+                                                       {-1, 0},
+                                                       {-0.70710678f, -0.70710678f},
+                                                       {0, -1},
+                                                       {0.70710678f, -0.70710678f}}};
+
 /// Where to feel, and how far.
 struct FeelerQuery {
   SurfacePoint point;

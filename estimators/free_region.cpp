@@ -161,13 +161,26 @@ float FreeRegion::extent() const {
   return extent < reach_ ? extent : kInfinity;
 }
 
-double FreeRegion::integral(float h, float taper, std::span<const HalfPlane> also) const {
+double FreeRegion::integral(float h, float taper) const {
   double sum = 0;
   for (int i = 0; i < PhotonRegion::kSectors; ++i) {
     const auto& c = region_.sectors[i].c;
-    const bool whole = also.empty() && *std::min_element(c.begin(), c.end()) >= h;
+    const bool whole = *std::min_element(c.begin(), c.end()) >= h;
     sum += whole ? std::numbers::pi / 8 * (1 - 0.5 * taper) * h * h
-                 : sector_integral(region_.sectors[i], i, h, taper, also);
+                 : sector_integral(region_.sectors[i], i, h, taper);
+  }
+  return sum;
+}
+
+double FreeRegion::area_in_box(float h, std::span<const float, 8> box) const {
+  double sum = 0;
+  for (int sector = 0; sector < PhotonRegion::kSectors; ++sector) {
+    std::array<HalfPlane, 4> sides;  // those at less than 90 degrees to some of the sector
+    for (int i = 0; i < 4; ++i) {
+      const int side = (sector + i + 7) % 8;
+      sides[i] = {kEightDirections[side], box[side]};
+    }
+    sum += sector_integral(region_.sectors[sector], sector, h, 0, sides);
   }
   return sum;
 }
@@ -178,13 +191,10 @@ PhotonRegion feeler_box(const RayCaster& caster, const FeelerQuery& query) {
   region.s = plane.s;
   region.t = plane.t;
   RayPacket packet;
-  std::array<Vec2, RayPacket::kSize> directions;
   const int step = RayPacket::kSize / query.feelers;
   const float error = query.point.error;
   for (int i = 0; i < RayPacket::kSize; ++i) {
-    const float angle = static_cast<float>(i) * (kPi / 4);
-    directions[i] = {std::cos(angle), std::sin(angle)};
-    packet.rays[i] = {plane.origin + plane.n * error, plane.direction(directions[i]), 0,
+    packet.rays[i] = {plane.origin + plane.n * error, plane.direction(kEightDirections[i]), 0,
                       query.length};
     packet.active |= i % step == 0 ? 1u << i : 0;
   }
@@ -192,7 +202,7 @@ PhotonRegion feeler_box(const RayCaster& caster, const FeelerQuery& query) {
   for (int sector = 0; sector < PhotonRegion::kSectors; ++sector) {
     for (int slot = 0; slot < PhotonRegion::kLines; ++slot) {
       const int i = (sector + slot + RayPacket::kSize - 1) % RayPacket::kSize;
-      if (hits[i].hit()) region.sectors[sector].set(slot, {directions[i], hits[i].t});
+      if (hits[i].hit()) region.sectors[sector].set(slot, {kEightDirections[i], hits[i].t});
     }
   }
   return region;

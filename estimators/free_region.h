@@ -35,9 +35,11 @@ class FreeRegion {
 
   /// Nothing of R is farther than this [m], if that is less than the reach; infinite if not.
   float extent() const;
-  /// Integral over R, the disc of radius h and the half planes of `also` (in the axes of photons())
-  /// of 1 - taper d^2/h^2 [m^2].
-  double integral(float h, float taper, std::span<const HalfPlane> also = {}) const;
+  /// Integral over R and the disc of radius h of 1 - taper d^2/h^2 [m^2].
+  double integral(float h, float taper) const;
+  /// Area of what R, the disc of radius h and an OctoBox have in common [m^2]. `box`: its distances
+  /// (>= 0) along the eight directions at 45 degrees, from the first axis of photons() on.
+  double area_in_box(float h, std::span<const float, 8> box) const;
 
  private:
   void add(int sector, int slot, HalfPlane line);

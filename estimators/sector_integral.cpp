@@ -25,25 +25,35 @@ Point mix(Point a, Point b, double t) { return {a.x + (b.x - a.x) * t, a.y + (b.
 double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
 double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
 
+constexpr std::size_t kMostCorners = 3 + PhotonRegion::kLines + kMaxExtraLines;
+
 /// A convex polygon of few corners.
 struct Polygon {
-  std::array<Point, 3 + PhotonRegion::kLines + kMaxExtraLines> corners;
+  std::array<Point, kMostCorners> corners;
   int count = 0;
 
   void add(Point p) { corners[static_cast<std::size_t>(count++)] = p; }
 };
 
-Polygon clip(const Polygon& polygon, HalfPlane line) {
-  const auto outside = [&](Point p) { return line.a.x * p.x + line.a.y * p.y - line.c; };
-  Polygon result;
+/// Cuts off what is beyond the line a p = c.
+void clip(Polygon& polygon, Point a, double c) {
+  std::array<double, kMostCorners> outside;
+  bool cuts = false;
   for (int i = 0; i < polygon.count; ++i) {
-    const Point p = polygon.corners[i];
-    const Point q = polygon.corners[(i + 1) % polygon.count];
-    const double dp = outside(p), dq = outside(q);
-    if (dp <= 0) result.add(p);
-    if ((dp < 0 && dq > 0) || (dp > 0 && dq < 0)) result.add(mix(p, q, dp / (dp - dq)));
+    outside[i] = dot(a, polygon.corners[i]) - c;
+    cuts = cuts || outside[i] > 0;
   }
-  return result;
+  if (!cuts) return;
+  Polygon rest;
+  for (int i = 0; i < polygon.count; ++i) {
+    const int next = i + 1 < polygon.count ? i + 1 : 0;
+    const double dp = outside[i], dq = outside[next];
+    if (dp <= 0) rest.add(polygon.corners[i]);
+    if ((dp < 0 && dq > 0) || (dp > 0 && dq < 0)) {
+      rest.add(mix(polygon.corners[i], polygon.corners[next], dp / (dp - dq)));
+    }
+  }
+  polygon = rest;
 }
 
 /// Between the origin and the segment p q, which is inside the unit disc.
@@ -73,18 +83,26 @@ double between(Point p, Point q, double taper) {
 /// The sector in units of `unit`, cut off outside the unit disc by the tangent in its middle.
 Polygon polygon_of(const PhotonRegion::Sector& sector, int index, float unit,
                    std::span<const HalfPlane> also) {
-  static const double kFar = 1 / std::cos(std::numbers::pi / 8);
-  const double from = index * std::numbers::pi / 4;
-  const double to = from + std::numbers::pi / 4;
+  static const std::array<Point, PhotonRegion::kSectors> kCorners = [] {
+    std::array<Point, PhotonRegion::kSectors> corners;
+    const double far = 1 / std::cos(std::numbers::pi / 8);
+    for (int i = 0; i < PhotonRegion::kSectors; ++i) {
+      const double angle = i * std::numbers::pi / 4;
+      corners[i] = {far * std::cos(angle), far * std::sin(angle)};
+    }
+    return corners;
+  }();
   Polygon polygon;
   polygon.add({0, 0});
-  polygon.add({kFar * std::cos(from), kFar * std::sin(from)});
-  polygon.add({kFar * std::cos(to), kFar * std::sin(to)});
+  polygon.add(kCorners[index]);
+  polygon.add(kCorners[(index + 1) % PhotonRegion::kSectors]);
   for (int i = 0; i < PhotonRegion::kLines; ++i) {
     const HalfPlane line = sector.line(i);
-    if (line.c < unit) polygon = clip(polygon, {line.a, line.c / unit});
+    if (line.c < unit) clip(polygon, {line.a.x, line.a.y}, line.c / unit);
   }
-  for (const HalfPlane& line : also) polygon = clip(polygon, {line.a, line.c / unit});
+  for (const HalfPlane& line : also) {
+    if (line.c < unit) clip(polygon, {line.a.x, line.a.y}, line.c / unit);
+  }
   return polygon;
 }
 

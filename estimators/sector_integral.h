@@ -8,7 +8,7 @@
 namespace octolux {
 
 /// At most so many half planes may cut a sector besides its own.
-inline constexpr std::size_t kMaxExtraLines = 8;
+inline constexpr std::size_t kMaxExtraLines = 4;
 
 /// Integral of 1 - taper d^2/h^2 over the part of sector `index` (0 to 7) within the disc of radius
 /// h and the half planes of `also`.
