@@ -2,6 +2,7 @@
 // al., EGSR 2007, reflection only; anisotropic). One-sided. Semantics of Mitsuba's `conductor` and
 // `roughconductor` with visible normals.
 #include "core/bsdf_delta.h"
+#include "core/bsdf_makers.h"
 #include "core/fresnel.h"
 #include "core/microfacet.h"
 

@@ -2,6 +2,7 @@
 // (G. G. Stokes 1862: of all the internal reflections together R' = 2 R / (1 + R) comes back and
 // the rest goes straight on). Semantics of Mitsuba's `dielectric` and `thindielectric`.
 #include "core/bsdf_delta.h"
+#include "core/bsdf_makers.h"
 #include "core/fresnel.h"
 
 namespace octolux {

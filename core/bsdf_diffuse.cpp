@@ -1,6 +1,6 @@
 // Lambert's law: the same radiance towards every direction of the front side. By far the most
 // frequent BSDF, so everything here is a few instructions.
-#include "core/bsdf.h"
+#include "core/bsdf_makers.h"
 #include "core/constants.h"
 #include "core/sampling.h"
 

@@ -2,6 +2,7 @@
 // base receives, and lets out, only what the coat does not reflect (Kelemen & Szirmay-Kalos 2001):
 // f_base = Kd / pi (1 - E(wo)) (1 - E(wi)) / (1 - mean E), E the coat's directional albedo, so the
 // whole is reciprocal and reflects E + (1 - E) Kd <= 1.
+#include "core/bsdf_makers.h"
 #include "core/bsdf_rough_coat.h"
 #include "core/microfacet_albedo.h"
 

@@ -2,7 +2,7 @@
 // Mitsuba's `mask`; opacity may differ between the channels.
 #include <algorithm>
 
-#include "core/bsdf.h"
+#include "core/bsdf_makers.h"
 
 namespace octolux {
 namespace {

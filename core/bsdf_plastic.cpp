@@ -1,6 +1,6 @@
 // Smooth plastic: a dielectric coat over a diffuse base, with all internal reflections between the
 // two. Semantics of Mitsuba's `plastic`.
-#include "core/bsdf.h"
+#include "core/bsdf_makers.h"
 #include "core/constants.h"
 #include "core/fresnel.h"
 #include "core/sampling.h"

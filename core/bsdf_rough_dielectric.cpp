@@ -4,7 +4,7 @@
 // For radiance, f(wo, wi) = (1 - F) D G |wo.m| |wi.m| / (|cos wo| |cos wi| (wo.m + eta wi.m)^2)
 // with eta the index on wi's side over that on wo's side: Walter's equation 21 times the 1/eta^2
 // that radiance loses (Veach 1997, 5.2). For flux without that factor.
-#include "core/bsdf.h"
+#include "core/bsdf_makers.h"
 #include "core/check.h"
 #include "core/fresnel.h"
 #include "core/microfacet.h"

@@ -1,6 +1,7 @@
 // Rough plastic: a rough dielectric coat over a diffuse base. What the base receives and what the
 // coat throws back to it are tabulated (microfacet_albedo.h). Semantics of Mitsuba 3's
 // `roughplastic`.
+#include "core/bsdf_makers.h"
 #include "core/bsdf_rough_coat.h"
 #include "core/microfacet_albedo.h"
 

@@ -1,5 +1,5 @@
-// file_io.h over POSIX calls: streams do not report all of what can go wrong (a full disk shows
-// when the file is flushed or closed) and cannot flush to disk.
+// file_io.h; writing over POSIX calls, because streams do not report all of what can go wrong (a
+// full disk shows when the file is flushed or closed) and cannot flush to disk.
 #include "core/file_io.h"
 
 #include <fcntl.h>
@@ -9,6 +9,8 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "core/error.h"
 
@@ -75,7 +77,25 @@ class TemporaryFile {
   bool renamed_ = false;
 };
 
+[[noreturn]] void fail_to_read(const std::string& path, int error_number) {
+  throw Error(path + ": cannot be read: " + std::strerror(error_number));
+}
+
 }  // namespace
+
+std::string read_file(const std::string& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) fail_to_read(path, EISDIR);
+  errno = 0;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) fail_to_read(path, errno);
+  std::string bytes;
+  const auto size = fs::file_size(path, error);
+  if (!error) bytes.reserve(size + 1);
+  bytes.assign(std::istreambuf_iterator<char>(in), {});
+  if (in.bad()) fail_to_read(path, errno);
+  return bytes;
+}
 
 void write_file(const std::string& path, std::span<const char> bytes) {
   check_target(path);

@@ -1,5 +1,5 @@
-// Pictures on disk: layered EXR (OpenEXR), PNG and texture files (OpenImageIO). Everything written
-// goes to a temporary file first and is renamed, so a picture on disk is always whole.
+// Pictures on disk: layered EXR (OpenEXR), PNG and texture files (stb). Everything written goes to
+// a temporary file first and is renamed, so a picture on disk is always whole.
 #pragma once
 
 #include <map>
@@ -50,8 +50,8 @@ void write_png(const std::string& path, const Image& image);
 
 /// How a texture file's numbers become linear light.
 enum class Encoding { automatic, srgb, linear };
-/// PNG, JPEG, TGA, BMP, HDR, EXR ...; alpha is dropped, grey is spread. automatic: 8-bit files are
-/// sRGB, float files linear. Throws Error.
+/// PNG, JPEG, TGA, BMP, HDR or EXR, told apart by content; alpha is dropped, grey is spread.
+/// automatic: HDR and EXR are linear, the others, of 8 or 16 bits, sRGB. Throws Error.
 Image read_image(const std::string& path, Encoding encoding);
 
 }  // namespace octolux

@@ -9,10 +9,11 @@
 
 #include <algorithm>
 
-#include "core/bsdf.h"
 #include "core/vec.h"
 
 namespace octolux {
+
+enum class MicrofacetKind { beckmann, ggx };
 
 class Microfacet {
  public:

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "core/constants.h"
 #include "core/vec.h"
@@ -35,6 +36,21 @@ inline Vec3 sample_sphere(Vec2 u) {
   return {r * std::cos(phi), r * std::sin(phi), z};
 }
 inline constexpr float kUniformSpherePdfW = kInvPi / 4;
+
+/// Van der Corput's radical inverse in base 2, of the low 24 bits.
+inline float radical_inverse(std::uint32_t i) {
+  std::uint32_t bits = 0;
+  for (int b = 0; b < 24; ++b) bits |= ((i >> b) & 1u) << (23 - b);
+  return static_cast<float>(bits) * 0x1p-24f;
+}
+
+/// Point `i` of the `n` of a Hammersley set, shifted round the unit square by `shift` (Cranley &
+/// Patterson 1976): each point alone is uniform, together they are spread evenly.
+inline Vec2 shifted_hammersley(std::uint32_t i, std::uint32_t n, Vec2 shift) {
+  const auto wrap = [](float u) { return std::min(kOneMinusEpsilon, u < 1 ? u : u - 1); };
+  return {wrap(static_cast<float>(i) / static_cast<float>(n) + shift.x),
+          wrap(radical_inverse(i) + shift.y)};
+}
 
 /// Barycentrics (u, v) of a uniform point of a triangle.
 inline Vec2 sample_triangle(Vec2 u) {

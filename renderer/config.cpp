@@ -1,6 +1,7 @@
 // The ranges of the settings.
 #include "renderer/config.h"
 
+#include <algorithm>
 #include <string>
 
 #include "core/error.h"
@@ -15,11 +16,17 @@ void require(bool ok, const std::string& message) {
 
 }  // namespace
 
+RenderConfig resolved(RenderConfig config, std::int64_t pixels) {
+  const std::int64_t automatic = std::max<std::int64_t>(50'000, pixels / 2);
+  if (config.photons.global < 0) config.photons.global = automatic;
+  if (config.photons.caustic < 0) config.photons.caustic = automatic;
+  return config;
+}
+
 void check(const RenderConfig& config) {
-  require(config.photons.global >= 1 || !config.eye.gather || config.integrator == Integrator::path,
-          "photons.global must be at least 1");
-  require(config.photons.global >= 0, "photons.global must be 0 or more");
-  require(config.photons.caustic >= 0, "photons.caustic must be 0 or more");
+  require(config.photons.global >= 1 || config.photons.global == -1,
+          "photons.global must be at least 1, or -1 for automatic");
+  require(config.photons.caustic >= -1, "photons.caustic must be 0 or more, or -1 for automatic");
   require(config.photons.global_radius > 0, "photons.global_radius must be above 0");
   require(config.photons.caustic_radius > 0, "photons.caustic_radius must be above 0");
   require(config.photons.alpha > 0 && config.photons.alpha <= 1, "photons.alpha must be in (0, 1]");

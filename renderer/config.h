@@ -11,17 +11,18 @@ namespace octolux {
 enum class Integrator { photon, path };
 
 struct PhotonConfig {
-  std::int64_t global = 200'000;   // paths emitted per pass for the global map
-  std::int64_t caustic = 200'000;  // the same for the caustic map; 0: none
-  double global_radius = 10;       // look-up limit, in units of the mean n-photon radius
-  double caustic_radius = 2;       // the same for the caustic map
-  double alpha = 2.0 / 3;          // Knaus & Zwicker's: how fast the bandwidth shrinks; 1: never
+  std::int64_t global =
+      -1;  // paths per pass for the global map; -1: half the pixels, at least 50 000
+  std::int64_t caustic = -1;  // the same for the caustic map; 0: none, gather rays find caustics
+  double global_radius = 10;  // look-up limit, in units of the mean n-photon radius
+  double caustic_radius = 2;  // the same for the caustic map
+  double alpha = 2.0 / 3;     // Knaus & Zwicker's: how fast the bandwidth shrinks; 1: never
 };
 
 struct EyeConfig {
   bool gather = true;        // false: show the global map directly
-  int gather_rays = 4;       // per eye sample
-  int light_samples = 4;     // per eye sample at most; one light each
+  int gather_rays = 8;       // per eye sample
+  int light_samples = 4;     // per eye sample; each chooses one light
   int samples_per_pass = 1;  // eye samples per pixel and pass
   double retrace = 2;        // gather rays shorter than this many bandwidths go on
 };
@@ -69,6 +70,9 @@ void visit(Config& config, Field&& field) {
   field("stop.seconds", config.stop.seconds);
   field("stop.error", config.stop.error);
 }
+
+/// The config with every automatic value (-1) replaced by what it stands for on a film of `pixels`.
+RenderConfig resolved(RenderConfig config, std::int64_t pixels);
 
 /// Throws Error if a value is out of its range.
 void check(const RenderConfig& config);

@@ -8,9 +8,8 @@ namespace octolux {
 namespace {
 
 /// One light sample's contribution, not yet divided by the number of samples.
-Rgb sample_one_light(Tracer& tracer, const LightSampler::Choice& choice, const Scattering& at,
-                     const DirectStrategy& strategy, int max_crossings) {
-  const Vec2 u = tracer.rng.uniform2();
+Rgb sample_one_light(Tracer& tracer, const LightSampler::Choice& choice, Vec2 u,
+                     const Scattering& at, const DirectStrategy& strategy) {
   const std::optional<LightSample> light = choice.light->sample(at.point().position, u);
   if (!light) return Rgb(0);
   const Rgb scattered = at.f_cos(light->wi, strategy.lobes) * light->radiance;
@@ -22,7 +21,8 @@ Rgb sample_one_light(Tracer& tracer, const LightSampler::Choice& choice, const S
                                             static_cast<float>(strategy.bsdf_samples),
                                             at.pdf_w(light->wi, strategy.sampled));
   const Rgb value = scattered * (share / pdf_w);
-  return is_black(value) ? value : value * tracer.visibility(at.point(), *light, max_crossings);
+  return is_black(value) ? value
+                         : value * tracer.visibility(at.point(), *light, strategy.max_crossings);
 }
 
 float bsdf_share(const Arrival& arrival, float light_pdf_w) {
@@ -34,15 +34,17 @@ float bsdf_share(const Arrival& arrival, float light_pdf_w) {
 }  // namespace
 
 Rgb sample_lights(Tracer& tracer, const LightSampler& lights, const Scattering& at,
-                  const DirectStrategy& strategy, int max_crossings) {
-  if (lights.empty() || max_crossings < 0) return Rgb(0);
+                  const DirectStrategy& strategy) {
+  if (lights.empty() || strategy.max_crossings < 0) return Rgb(0);
   Rgb total(0);
-  const float n = static_cast<float>(strategy.light_samples);
-  for (int i = 0; i < strategy.light_samples; ++i) {
-    const float u = std::min(kOneMinusEpsilon, (static_cast<float>(i) + tracer.rng.uniform()) / n);
-    total += sample_one_light(tracer, lights.sample(u), at, strategy, max_crossings);
+  const auto n = static_cast<std::uint32_t>(strategy.light_samples);
+  const Vec2 shift = tracer.rng.uniform2();
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const float u_light = (static_cast<float>(i) + tracer.rng.uniform()) / static_cast<float>(n);
+    const LightSampler::Choice choice = lights.sample(std::min(kOneMinusEpsilon, u_light));
+    total += sample_one_light(tracer, choice, shifted_hammersley(i, n, shift), at, strategy);
   }
-  return total / n;
+  return total / static_cast<float>(n);
 }
 
 Rgb emitted(const LightSampler& lights, const SurfaceHit& hit, Vec3 wo, const Arrival& arrival) {

@@ -13,12 +13,13 @@ struct DirectStrategy {
   Lobes sampled = Lobes::all;      // the set BSDF sampling draws from
   int light_samples = 1;
   int bsdf_samples = 1;
+  int max_crossings = 0;  // panes and masks a connection may cross; negative: no light
 };
 
 /// Next-event estimation at `at`: radiance towards at.wo(), the share of it that the heuristic
-/// gives this technique. A connection may cross at most `max_crossings` panes and masks.
+/// gives this technique.
 Rgb sample_lights(Tracer& tracer, const LightSampler& lights, const Scattering& at,
-                  const DirectStrategy& strategy, int max_crossings);
+                  const DirectStrategy& strategy);
 
 /// How a path arrived where it is, as far as the heuristic must know.
 struct Arrival {

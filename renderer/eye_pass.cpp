@@ -11,8 +11,8 @@ namespace {
 Rgb near_specular_direct(Tracer& tracer, const LightSampler& lights, const Scattering& at,
                          int max_crossings) {
   if (!at.bsdf().has(Lobes::near_specular)) return Rgb(0);
-  const DirectStrategy strategy{Lobes::near_specular, Lobes::specular, 1, 1};
-  return sample_lights(tracer, lights, at, strategy, max_crossings);
+  const DirectStrategy strategy{Lobes::near_specular, Lobes::specular, 1, 1, max_crossings};
+  return sample_lights(tracer, lights, at, strategy);
 }
 
 }  // namespace

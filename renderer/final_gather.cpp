@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/sampling.h"
 #include "renderer/roulette.h"
 
 namespace octolux {
@@ -12,15 +13,6 @@ namespace {
 constexpr int kUnlimited = 1 << 20;  // segments
 constexpr int kMaxRetraces = 16;
 
-/// Van der Corput's radical inverse in base 2: with i/n a Hammersley set.
-float radical_inverse(std::uint32_t i) {
-  std::uint32_t bits = 0;
-  for (int b = 0; b < 24; ++b) bits |= ((i >> b) & 1u) << (23 - b);
-  return static_cast<float>(bits) * 0x1p-24f;
-}
-
-float wrap(float u) { return std::min(kOneMinusEpsilon, u < 1 ? u : u - 1); }
-
 }  // namespace
 
 FinalGather::FinalGather(const Scene& scene, const LightSampler& lights, const PhotonMaps& maps,
@@ -29,8 +21,7 @@ FinalGather::FinalGather(const Scene& scene, const LightSampler& lights, const P
       lights_(lights),
       maps_(maps),
       config_(config),
-      light_samples_(
-          std::min<int>(config.eye.light_samples, static_cast<int>(scene.lights.size()))) {}
+      light_samples_(lights.empty() ? 0 : config.eye.light_samples) {}
 
 int FinalGather::remaining(int segments) const {
   return scene_.max_depth < 0 ? kUnlimited : scene_.max_depth - segments;
@@ -51,8 +42,9 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
                                     const Level& level) const {
   SplitRadiance out;
   if (remaining(level.segments) < 1) return out;
-  const DirectStrategy strategy{Lobes::smooth, Lobes::smooth, light_samples_, level.rays};
-  out.direct = sample_lights(tracer, lights_, at, strategy, remaining(level.segments) - 1);
+  const DirectStrategy strategy{Lobes::smooth, Lobes::smooth, light_samples_, level.rays,
+                                remaining(level.segments) - 1};
+  out.direct = sample_lights(tracer, lights_, at, strategy);
 
   const GatherPoint point = gather_point(tracer, at, level.segments);
   if (maps_.caustics_mapped) out.caustic = maps_.caustic.radiance(point);
@@ -63,11 +55,10 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
                          maps_.global.bandwidth(point, config_.estimator.neighbours);
   }
   const Vec2 shift = tracer.rng.uniform2();
-  const float n = static_cast<float>(level.rays);
-  for (int i = 0; i < level.rays; ++i) {
-    const Vec2 u{wrap(static_cast<float>(i) / n + shift.x),
-                 wrap(radical_inverse(static_cast<std::uint32_t>(i)) + shift.y)};
-    out.indirect += gather_ray(tracer, at, next, u) / n;
+  const auto n = static_cast<std::uint32_t>(level.rays);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const Vec2 u = shifted_hammersley(i, n, shift);
+    out.indirect += gather_ray(tracer, at, next, u) / static_cast<float>(n);
   }
   return out;
 }

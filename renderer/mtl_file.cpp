@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/file_io.h"
 #include "core/hash.h"
 #include "renderer/obj_text.h"
 
@@ -136,7 +137,7 @@ MtlMaterial convert(const tinyobj::material_t& m, const std::string& name,
 }  // namespace
 
 MtlFile read_mtl_file(const std::string& path) {
-  std::string text = read_text_file(path);
+  std::string text = read_file(path);
   MtlFile file;
   file.hash = hash_bytes(0, text);
   unify_line_breaks(text);

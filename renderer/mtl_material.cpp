@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/bsdf_makers.h"
+
 namespace octolux {
 namespace {
 

@@ -4,32 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 
-#include "core/error.h"
+#include "core/file_io.h"
 #include "core/hash.h"
 
 namespace octolux {
-
-std::string read_text_file(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    throw Error(fmt::format("{}: cannot be read: it is a directory", path));
-  }
-  errno = 0;
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw Error(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
-  std::string bytes;
-  const auto size = std::filesystem::file_size(path, error);
-  if (!error) bytes.reserve(size + 1);
-  bytes.assign(std::istreambuf_iterator<char>(in), {});
-  if (in.bad()) throw Error(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
-  return bytes;
-}
 
 void unify_line_breaks(std::string& text) {
   for (std::size_t i = text.find('\r'); i != std::string::npos; i = text.find('\r', i + 1)) {
@@ -55,7 +34,7 @@ std::size_t comment_start(std::string_view line) {
 
 }  // namespace
 
-ObjText::ObjText(const std::string& path) : path_(path), text_(read_text_file(path)) {
+ObjText::ObjText(const std::string& path) : path_(path), text_(read_file(path)) {
   hash_ = hash_bytes(0, text_);
   text_ += '\n';
   unify_line_breaks(text_);

@@ -45,9 +45,6 @@ class ObjText {
   std::uint64_t hash_ = 0;
 };
 
-/// The whole file as bytes. Throws Error, "path: cannot be read: reason".
-std::string read_text_file(const std::string& path);
-
 /// CR LF becomes blank LF, a lone CR becomes LF: nothing moves.
 void unify_line_breaks(std::string& text);
 

@@ -9,7 +9,6 @@ namespace octolux {
 EyeSample trace_path(Tracer& tracer, const LightSampler& lights, Ray ray) {
   const Scene& scene = tracer.scene();
   const int max_segments = scene.max_depth < 0 ? 1 << 20 : scene.max_depth;
-  const DirectStrategy strategy;
   EyeSample out;
   Rgb beta(1);
   float eta = 1;
@@ -32,7 +31,8 @@ EyeSample trace_path(Tracer& tracer, const LightSampler& lights, Ray ray) {
     const bool samples_lights = hit->bsdf->has(Lobes::non_delta) && !lights.empty();
     if (samples_lights) {
       Rgb& lit = bounces == 0 ? out.direct : out.indirect;
-      lit += beta * sample_lights(tracer, lights, at, strategy, max_segments - segments - 1);
+      const DirectStrategy strategy{.max_crossings = max_segments - segments - 1};
+      lit += beta * sample_lights(tracer, lights, at, strategy);
     }
     const std::optional<BsdfSample> sample = sample_lobes(tracer.rng, at, Lobes::all);
     if (!sample) break;

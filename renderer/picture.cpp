@@ -7,8 +7,10 @@
 
 namespace octolux {
 
-ExrFile make_exr(const Scene& scene, const RenderConfig& config, const Progress& progress,
+ExrFile make_exr(const Scene& scene, const RenderConfig& wanted, const Progress& progress,
                  const Film& film, bool split) {
+  const RenderConfig config =
+      resolved(wanted, static_cast<std::int64_t>(film.width()) * film.height());
   ExrFile file;
   file.width = film.width();
   file.height = film.height();

@@ -131,12 +131,15 @@ StopConfig default_stop(Integrator integrator) {
   return stop;
 }
 
-RenderResult render(const Scene& scene, const RenderConfig& config, RenderObserver& observer) {
-  check(config);
+RenderResult render(const Scene& scene, const RenderConfig& wanted, RenderObserver& observer) {
+  check(wanted);
+  const FilmSize& film = scene.film;
+  const RenderConfig config =
+      resolved(wanted, static_cast<std::int64_t>(film.crop_width) * film.crop_height);
   const StopConfig stop = has_rule(config.stop) ? config.stop : default_stop(config.integrator);
   const Job job{scene, config, LightSampler(scene), make_estimator(config.estimator)};
   Stopwatch watch;
-  RenderResult result{Film(scene.film.crop_width, scene.film.crop_height), {}, false};
+  RenderResult result{Film(film.crop_width, film.crop_height), {}, false};
   Progress& progress = result.progress;
   progress.total_passes = pass_limit(stop, config.eye.samples_per_pass);
   do {

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 
+#include "core/bsdf_makers.h"
+#include "core/file_io.h"
 #include "core/hash.h"
-#include "renderer/obj_text.h"
 #include "renderer/xml_objects.h"
 
 namespace octolux {
@@ -62,7 +63,7 @@ std::string SceneBuilder::file(Properties& properties, const std::string& name) 
   if (!given) properties.fail(name, "the parameter '" + name + "' is missing");
   std::string path = document_.find_file(*given, properties.where(name));
   if (hashed_files_.insert(path).second) {
-    scene_.hash = hash_bytes(scene_.hash, read_text_file(path));
+    scene_.hash = hash_bytes(scene_.hash, read_file(path));
   }
   return path;
 }

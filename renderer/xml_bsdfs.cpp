@@ -2,7 +2,7 @@
 #include <memory>
 #include <string>
 
-#include "core/bsdf.h"
+#include "core/bsdf_makers.h"
 #include "core/ior.h"
 #include "renderer/xml_objects.h"
 

@@ -12,8 +12,8 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/file_io.h"
 #include "core/hash.h"
-#include "renderer/obj_text.h"
 #include "renderer/xml_grammar.h"
 #include "renderer/xml_references.h"
 
@@ -98,7 +98,7 @@ XmlNode XmlReader::read_file(const std::string& path, const std::string& shown_a
   if (std::count(open_files_.begin(), open_files_.end(), canonical) > 0) {
     throw Error(shown_at + "the file includes itself: '" + path + "'");
   }
-  const Source source{path, read_text_file(path)};
+  const Source source{path, octolux::read_file(path)};
   add_to_hash(source.text);
 
   pugi::xml_document xml;

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/bsdf.h"
+#include "core/bsdf_makers.h"
 #include "core/rng.h"
 
 namespace octolux::test {

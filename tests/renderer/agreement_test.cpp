@@ -13,7 +13,7 @@ struct Case {
   const char* scene;
   int width, height;
   int path_passes, photon_passes;
-  std::int64_t photons;
+  std::int64_t photons;  // per pass and map
 };
 
 class AgreementSlow : public testing::TestWithParam<Case> {};
@@ -22,6 +22,9 @@ TEST_P(AgreementSlow, PerPixelAndInTheMean) {
   const Case& c = GetParam();
   const auto scene = shipped_scene(c.scene);
   resize_film(*scene, c.width, c.height);
+  // Every pass puts its samples at the same place of all pixels: along a lamp's edge that is one
+  // common quadrature error, which no pixel's variance knows of. So lamps are not looked at.
+  scene->hide_emitters = true;
   const Film path = render_film(*scene, path_config(c.path_passes));
   const Film photon = render_film(*scene, photon_config(c.photon_passes, c.photons));
   const MeanRadiance a = mean_radiance(path), b = mean_radiance(photon);
@@ -36,9 +39,9 @@ TEST_P(AgreementSlow, PerPixelAndInTheMean) {
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, AgreementSlow,
-    testing::Values(Case{"cornell/cornell.xml", 48, 48, 4096, 128, 100'000},
-                    Case{"glass-sphere/glass-sphere.xml", 48, 48, 8192, 128, 100'000},
-                    Case{"two-rooms/two-rooms.xml", 48, 32, 16384, 128, 100'000}),
+    testing::Values(Case{"cornell/cornell.xml", 48, 48, 4096, 128, 200'000},
+                    Case{"glass-sphere/glass-sphere.xml", 48, 48, 8192, 128, 400'000},
+                    Case{"two-rooms/two-rooms.xml", 48, 32, 16384, 128, 200'000}),
     [](const testing::TestParamInfo<Case>& param) {
       std::string name = param.param.scene;
       name = name.substr(0, name.find('/'));

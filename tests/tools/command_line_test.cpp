@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <thread>
@@ -230,18 +231,32 @@ TEST_F(CommandLine, SplitLayersAddUpToThePicture) {
   }
 }
 
-/// The picture appears within seconds, long before the end; then Ctrl-C, and it is whole.
-TEST_F(CommandLine, InterruptFinishesThePassAndWrites) {
-  const Program program(folder_, {"render", "room.xml", "--time", "600"});
-  while (test::read_file(folder_ / ".err").find("pass 1") == std::string::npos) {
+/// Waits until the program has said `word` on stderr, a minute at most. Did it?
+bool has_said(const TemporaryFolder& folder, const std::string& word) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  while (std::chrono::steady_clock::now() < end) {
+    if (test::read_file(folder / ".err").find(word) != std::string::npos) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
-  ::kill(program.process(), SIGINT);
+  return false;
+}
+
+/// Told to stop after its first pass, a render that has ten minutes ends at once, with a whole
+/// picture.
+void expect_stop_by(int signal, const TemporaryFolder& folder) {
+  const Program program(folder, {"render", "room.xml", "--photons", "500", "--time", "600"});
+  EXPECT_TRUE(has_said(folder, "pass 1"));
+  ::kill(program.process(), signal);
   const Outcome outcome = program.wait();
   EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
-  EXPECT_EQ(read_exr(folder_ / "room.exr").width, 24);
-  EXPECT_TRUE(exists("room.png"));
+  EXPECT_NE(outcome.err.find("finishing this pass"), std::string::npos) << outcome.err;
+  EXPECT_EQ(read_exr(folder / "room.exr").width, 24);
+  EXPECT_TRUE(std::filesystem::exists(folder / "room.png"));
 }
+
+TEST_F(CommandLine, CtrlCFinishesThePassAndWrites) { expect_stop_by(SIGINT, folder_); }
+
+TEST_F(CommandLine, KillFinishesThePassAndWrites) { expect_stop_by(SIGTERM, folder_); }
 
 TEST_F(CommandLine, InfoTellsWhatWasLoaded) {
   const Outcome outcome = run({"info", "room.xml"});

@@ -83,7 +83,7 @@ struct Owner {
 const std::vector<Owner> kOwners = {
     {"embree", {"accel/ray_caster.cpp"}},
     {"Imf", {"core/exr_io.cpp"}},
-    {"OpenImageIO", {"core/image_io.cpp"}},
+    {"stb", {"core/stb_io.cpp"}},
     {"OpenColorIO", {"core/display.cpp"}},
     {"tbb/", {"core/parallel.cpp", "accel/"}},
     {"pugixml", {"renderer/"}},
@@ -118,9 +118,11 @@ TEST_F(HouseRules, OnlyTheDisplayReadsTheEnvironment) {
   }
 }
 
+/// A header is an interface, and to be read at one go; one of the tests is source that they share.
 TEST_F(HouseRules, FilesAreShort) {
   for (const SourceFile& file : files()) {
-    EXPECT_LE(file.lines.size(), file.is_header() ? 150u : 300u) << file.path;
+    const bool is_interface = file.is_header() && file.folder() != "tests";
+    EXPECT_LE(file.lines.size(), is_interface ? 150u : 300u) << file.path;
   }
 }
 
