@@ -74,7 +74,7 @@ class FeelerFilter final : public Estimator {
                                ? disc_gain(at, map, found.disc, estimate.count)
                                : region_gain(at, map, found, area, estimate.count);
     const auto gain = static_cast<float>(flat * density);
-    estimate.radiance *= gain;
+    estimate.radiance = in_range(estimate.radiance * gain);
     estimate.area /= gain > 0 ? gain : 1;
     return estimate;
   }
@@ -133,7 +133,7 @@ class FeelerFilter final : public Estimator {
     const float disc_area = kPi * disc.h2 / disc.r2;
     const float area = published_octobox_area(points, use_);
     const float gain = area > kDegenerate * disc_area ? disc_area / area : 1;
-    estimate.radiance *= gain;
+    estimate.radiance = in_range(estimate.radiance * gain);
     estimate.area /= gain;
     return estimate;
   }

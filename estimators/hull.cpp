@@ -31,7 +31,7 @@ class Hull final : public Estimator {
     Estimate estimate = radial_sum(at, map, disc, FlatKernel{});
     const double gain =
         config_.correction ? corrected(at, map, disc, estimate.count) : published(at, map, disc);
-    estimate.radiance *= static_cast<float>(gain);
+    estimate.radiance = in_range(estimate.radiance * static_cast<float>(gain));
     if (gain > 0) estimate.area /= static_cast<float>(gain);
     return estimate;
   }

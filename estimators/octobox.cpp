@@ -33,7 +33,7 @@ class OctoBox final : public Estimator {
     Estimate estimate = radial_sum(at, map, disc, FlatKernel{});
     const float gain =
         config_.correction ? corrected(at, map, disc, estimate.count) : published(at, map, disc);
-    estimate.radiance *= gain;
+    estimate.radiance = in_range(estimate.radiance * gain);
     if (gain > 0) estimate.area /= gain;
     return estimate;
   }

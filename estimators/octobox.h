@@ -31,6 +31,14 @@ class PlanePoints {
   const float* x() const { return x_.data(); }
   const float* y() const { return y_.data(); }
   const float* inside() const { return inside_.data(); }  // 1 or 0
+  /// Positions (x, y, z) relative to the query, and squared distances in the look-up's metric.
+  struct Positions {
+    std::vector<float> x, y, z, distance2;
+    void resize(int count);  // and room for padding
+  };
+  /// Replaces all points by the first `count` positions (which it pads): their coordinates along
+  /// `s` and `t`, inside where distance2 < inside2.
+  void project(Positions& positions, int count, Vec3 s, Vec3 t, float inside2);
   /// Turns the axes by the angle whose cosine and sine are given.
   void turn(Vec2 axis);
 
@@ -57,6 +65,9 @@ float octobox_area(const Lanes& box, float radius);
 struct Octants {
   Lanes a{}, b{}, sum{}, difference{};  // greatest a, b, a + b and a - b
 };
+
+/// Number of points in each octant.
+std::array<int, kSides> octant_counts(const PlanePoints& points);
 
 /// Octant of a point, 0 to 7.
 inline int octant(float x, float y) {

@@ -6,6 +6,7 @@
 
 #include "core/constants.h"
 #include "core/error.h"
+#include "estimators/simd8.h"
 
 namespace octolux {
 namespace {
@@ -79,17 +80,11 @@ Fit fit_octants(const PlanePoints& points, const Lanes& box, const Lanes& own_sh
   return fit;
 }
 
-std::array<int, kSides> count_octants(const PlanePoints& points) {
-  std::array<int, kSides> counts{};
-  for (int i = 0; i < points.size(); ++i) ++counts[octant(points.x()[i], points.y()[i])];
-  return counts;
-}
-
 /// How far each octant goes by its own box: where it has photons enough (the paper: about 50), and
 /// where it has so few that it cannot be open. The latter by Anscombe's root, a standard normal
 /// deviate if the octant were open.
 Lanes own_shares(const PlanePoints& points) {
-  const std::array<int, kSides> counts = count_octants(points);
+  const std::array<int, kSides> counts = octant_counts(points);
   const float expected = std::sqrt(static_cast<float>(points.size()) / kSides + 0.375f);
   Lanes shares;
   for (int i = 0; i < kSides; ++i) {
@@ -110,15 +105,17 @@ OctantUse parse_octant_use(const std::string& name) {
 }
 
 float count_inside(const PlanePoints& points, const Lanes& box) {
-  Lanes count{};
+  Float8 count = {};
   for (int i = 0; i < points.padded_size(); i += kSides) {
-    for (int j = 0; j < kSides; ++j) {
-      const float x = points.x()[i + j], y = points.y()[i + j];
-      count[j] += points.inside()[i + j] * (1 - on_side(box, x, y));
-    }
+    const Float8 x = load8(points.x() + i), y = load8(points.y() + i);
+    const Float8 p = (x + y) * kSqrtHalf, m = (y - x) * kSqrtHalf;
+    const Mask8 within = (x < box[0]) & (p < box[1]) & (y < box[2]) & (m < box[3]) & (-x < box[4]) &
+                         (-p < box[5]) & (-y < box[6]) & (-m < box[7]);
+    const Float8 inside = load8(points.inside() + i);
+    count += within ? inside : splat8(0);
   }
   float total = 0;
-  for (const float c : count) total += c;
+  for (int j = 0; j < kSides; ++j) total += count[j];
   return total;
 }
 
@@ -145,7 +142,7 @@ float published_octobox_area(const PlanePoints& points, OctantUse use) {
     eight += a * b - ((a - m) * (a - m) + (a + b - p) * (a + b - p) + b * b) / 2;
   }
   if (use == OctantUse::eight) return eight;
-  const std::array<int, kSides> counts = count_octants(points);
+  const std::array<int, kSides> counts = octant_counts(points);
   const int fewest = *std::min_element(counts.begin(), counts.end());
   const float share = std::min(static_cast<float>(fewest) / kEnough, 1.0f);
   return (1 - share) * one + share * eight;

@@ -6,6 +6,7 @@
 
 #include "core/constants.h"
 #include "estimators/octobox.h"
+#include "estimators/simd8.h"
 
 namespace octolux {
 namespace {
@@ -15,13 +16,13 @@ constexpr float kSqrtHalf = 0.70710678118654752f;
 constexpr float kEighthTurn = kPi / 4;
 
 /// atan2(t, d) for d >= 0; absolute error below 1e-7 (Abramowitz & Stegun 4.4.49).
-inline float angle_of(float t, float d) {
-  const float size = std::abs(t);
-  const float low = size < d ? size : d;
-  const float high = size < d ? d : size;
-  const float q = low / (high > 0 ? high : 1.0f);
-  const float s = q * q;
-  float p = 0.0028662257f;
+inline Float8 angle_of(Float8 t, Float8 d) {
+  const Float8 size = abs8(t);
+  const Float8 low = min8(size, d);
+  const Float8 high = max8(size, d);
+  const Float8 q = low / (high > 0 ? high : splat8(1));
+  const Float8 s = q * q;
+  Float8 p = splat8(0.0028662257f);
   p = p * s - 0.0161657367f;
   p = p * s + 0.0429096138f;
   p = p * s - 0.0752896400f;
@@ -29,82 +30,96 @@ inline float angle_of(float t, float d) {
   p = p * s - 0.1420889944f;
   p = p * s + 0.1999355085f;
   p = p * s - 0.3333314528f;
-  const float a = q + q * s * p;
-  return std::copysign(size < d ? a : kPi / 2 - a, t);
+  Float8 a = q + q * s * p;
+  a = size < d ? a : kPi / 2 - a;
+  return t < 0 ? -a : a;
 }
 
-inline float greater(float a, float b) { return a > b ? a : b; }
-
-/// The part of a side inside the disc: the side's line is at distance d, and runs from t = from to
-/// t = to along it.
-struct Chord {
-  float first, last;              // t of the ends
-  float first_angle, last_angle;  // of the ends, from the direction of the side
-  bool enters, leaves;            // did the disc cut the ends off?
+/// The parts of eight sides inside the disc: a side's line is at distance d, and runs from
+/// t = from to t = to along it.
+struct Chords {
+  Float8 twice_area;               // of the triangles from the origin to the parts
+  Float8 first_angle, last_angle;  // of the ends, from the direction of the side
+  Float8 enters, leaves;           // 1: the disc cut the end off
 };
 
-inline Chord chord(float d, float from, float to, float radius) {
-  const float half2 = radius * radius - d * d;
-  const float half = std::sqrt(half2 > 0 ? half2 : 0.0f);
-  Chord c;
-  c.enters = from < -half || from > half;
-  c.leaves = to < -half || to > half;
-  c.first = std::min(std::max(from, -half), half);
-  c.last = std::min(std::max(to, -half), half);
-  c.first_angle = angle_of(c.first, d);
-  c.last_angle = angle_of(c.last, d);
+inline Chords chords(Float8 d, Float8 from, Float8 to, float radius) {
+  const Float8 half = sqrt8(max8(radius * radius - d * d, splat8(0)));
+  const Float8 first = min8(max8(from, -half), half);
+  const Float8 last = min8(max8(to, -half), half);
+  Chords c;
+  c.twice_area = d * (last - first);
+  c.enters = ones8(first != from);
+  c.leaves = ones8(last != to);
+  c.first_angle = angle_of(first, d);
+  c.last_angle = angle_of(last, d);
   return c;
 }
 
-/// (kSides of them) the lanes rotated: result[j] = v[j + by].
-inline Lanes rotated(const Lanes& v, int by) {
-  Lanes r;
-  for (int j = 0; j < kSides; ++j) r[j] = v[(j + by) & (kSides - 1)];
-  return r;
+std::size_t padded_count(int count) {
+  return static_cast<std::size_t>((count + kSides - 1) / kSides) * kSides;
+}
+
+void grow(std::vector<float>& v, int count) {
+  if (v.size() != padded_count(count)) v.resize(padded_count(count));
+}
+
+inline float sum8(Float8 v) {
+  return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]));
 }
 
 }  // namespace
 
 void PlanePoints::resize(int count) {
   count_ = count;
-  const std::size_t padded = static_cast<std::size_t>((count + kSides - 1) / kSides) * kSides;
-  x_.resize(padded);
-  y_.resize(padded);
-  inside_.resize(padded);
-  std::fill(x_.begin() + count, x_.end(), 0.0f);
-  std::fill(y_.begin() + count, y_.end(), 0.0f);
-  std::fill(inside_.begin() + count, inside_.end(), 0.0f);
+  for (std::vector<float>* v : {&x_, &y_, &inside_}) grow(*v, count);
+  for (std::size_t i = static_cast<std::size_t>(count); i < x_.size(); ++i) {
+    x_[i] = y_[i] = inside_[i] = 0;
+  }
+}
+
+void PlanePoints::Positions::resize(int count) {
+  for (std::vector<float>* v : {&x, &y, &z, &distance2}) grow(*v, count);
+}
+
+void PlanePoints::project(Positions& positions, int count, Vec3 s, Vec3 t, float inside2) {
+  count_ = count;
+  for (std::vector<float>* v : {&x_, &y_, &inside_}) grow(*v, count);
+  for (std::size_t i = static_cast<std::size_t>(count); i < x_.size(); ++i) {
+    positions.x[i] = positions.y[i] = positions.z[i] = 0;
+    positions.distance2[i] = kInfinity;
+  }
+  for (int i = 0; i < padded_size(); i += kSides) {
+    const Float8 x = load8(&positions.x[i]), y = load8(&positions.y[i]);
+    const Float8 z = load8(&positions.z[i]);
+    store8(&x_[i], x * s.x + y * s.y + z * s.z);
+    store8(&y_[i], x * t.x + y * t.y + z * t.z);
+    store8(&inside_[i], ones8(load8(&positions.distance2[i]) < inside2));
+  }
 }
 
 void PlanePoints::turn(Vec2 axis) {
-  for (std::size_t i = 0; i < x_.size(); ++i) {
-    const float x = x_[i] * axis.x + y_[i] * axis.y;
-    const float y = y_[i] * axis.x - x_[i] * axis.y;
-    x_[i] = x;
-    y_[i] = y;
+  for (int i = 0; i < padded_size(); i += kSides) {
+    const Float8 x = load8(&x_[i]), y = load8(&y_[i]);
+    store8(&x_[i], x * axis.x + y * axis.y);
+    store8(&y_[i], y * axis.x - x * axis.y);
   }
 }
 
 Vec2 principal_axis(const PlanePoints& points) {
-  Lanes sx{}, sy{}, sxx{}, sxy{}, syy{};
+  Float8 moments[8] = {};  // x, y, xx, xy, yy
   for (int i = 0; i < points.padded_size(); i += kSides) {
-    for (int j = 0; j < kSides; ++j) {
-      const float x = points.x()[i + j];
-      const float y = points.y()[i + j];
-      sx[j] += x;
-      sy[j] += y;
-      sxx[j] += x * x;
-      sxy[j] += x * y;
-      syy[j] += y * y;
-    }
+    const Float8 x = load8(points.x() + i), y = load8(points.y() + i);
+    moments[0] += x;
+    moments[1] += y;
+    moments[2] += x * x;
+    moments[3] += x * y;
+    moments[4] += y * y;
   }
-  const auto total = [](const Lanes& v) {
-    return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]));
-  };
+  const Float8 m = reduce8(moments, Add8{});
   const float n = static_cast<float>(points.size());
-  const float mx = total(sx), my = total(sy);
-  const float difference = (total(sxx) - mx * mx / n) - (total(syy) - my * my / n);
-  const float twice = 2 * (total(sxy) - mx * my / n);
+  const float difference = (m[2] - m[0] * m[0] / n) - (m[4] - m[1] * m[1] / n);
+  const float twice = 2 * (m[3] - m[0] * m[1] / n);
   const float length = std::sqrt(difference * difference + twice * twice);
   if (!(length > 0)) return {1, 0};
   // Half the angle of (difference, twice), by the formula without cancellation.
@@ -114,20 +129,23 @@ Vec2 principal_axis(const PlanePoints& points) {
 }
 
 Lanes octobox_with_origin(const PlanePoints& points) {
-  std::array<Lanes, kSides> most{};
+  Float8 most[kSides] = {};
   for (int i = 0; i < points.padded_size(); i += kSides) {
-    for (int j = 0; j < kSides; ++j) {
-      const float x = points.x()[i + j];
-      const float y = points.y()[i + j];
-      const float sides[kSides] = {x, x + y, y, y - x, -x, -(x + y), -y, -(y - x)};
-      for (int k = 0; k < kSides; ++k) most[k][j] = greater(most[k][j], sides[k]);
-    }
+    const Float8 x = load8(points.x() + i), y = load8(points.y() + i);
+    const Float8 sum = x + y, difference = y - x;
+    most[0] = max8(most[0], x);
+    most[1] = max8(most[1], sum);
+    most[2] = max8(most[2], y);
+    most[3] = max8(most[3], difference);
+    most[4] = min8(most[4], x);
+    most[5] = min8(most[5], sum);
+    most[6] = min8(most[6], y);
+    most[7] = min8(most[7], difference);
   }
+  for (int k = 4; k < kSides; ++k) most[k] = -most[k];
+  const Float8 scale{1, kSqrtHalf, 1, kSqrtHalf, 1, kSqrtHalf, 1, kSqrtHalf};
   Lanes box;
-  for (int k = 0; k < kSides; ++k) {
-    const float support = *std::max_element(most[k].begin(), most[k].end());
-    box[k] = k % 2 == 0 ? support : support * kSqrtHalf;
-  }
+  store8(box.data(), reduce8(most, Max8{}) * scale);
   return box;
 }
 
@@ -138,7 +156,7 @@ Lanes octobox(const PlanePoints& points) {
     const float x = points.x()[i], y = points.y()[i];
     const float p = (x + y) * kSqrtHalf, m = (y - x) * kSqrtHalf;
     const float sides[kSides] = {x, p, y, m, -x, -p, -y, -m};
-    for (int k = 0; k < kSides; ++k) box[k] = greater(box[k], sides[k]);
+    for (int k = 0; k < kSides; ++k) box[k] = std::max(box[k], sides[k]);
   }
   return box;
 }
@@ -154,25 +172,46 @@ float octobox_area(const Lanes& box) {
 }
 
 float octobox_area(const Lanes& box, float radius) {
-  const Lanes next = rotated(box, 1), previous = rotated(box, -1);
-  Lanes chords, first_angle, last_angle, enters, leaves;
-  for (int j = 0; j < kSides; ++j) {
-    const float d = box[j];
-    const Chord c = chord(d, d - kSqrt2 * previous[j], kSqrt2 * next[j] - d, radius);
-    chords[j] = d * (c.last - c.first);
-    first_angle[j] = c.first_angle;
-    last_angle[j] = c.last_angle;
-    enters[j] = c.enters ? 1.0f : 0.0f;
-    leaves[j] = c.leaves ? 1.0f : 0.0f;
+  const Float8 d = load8(box.data());
+  const Float8 next = __builtin_shufflevector(d, d, 1, 2, 3, 4, 5, 6, 7, 0);
+  const Float8 previous = __builtin_shufflevector(d, d, 7, 0, 1, 2, 3, 4, 5, 6);
+  const Chords c = chords(d, d - kSqrt2 * previous, kSqrt2 * next - d, radius);
+  const Float8 first = c.first_angle, enters = c.enters;
+  const Float8 arcs =
+      kEighthTurn - c.last_angle + __builtin_shufflevector(first, first, 1, 2, 3, 4, 5, 6, 7, 0);
+  const Float8 cut = c.leaves + __builtin_shufflevector(enters, enters, 1, 2, 3, 4, 5, 6, 7, 0);
+  const Float8 twice = c.twice_area + (cut > 0 ? arcs : splat8(0)) * (radius * radius);
+  return std::max(sum8(twice) / 2, 0.0f);
+}
+
+std::array<int, kSides> octant_counts(const PlanePoints& points) {
+  // Numbers of points that are left, below, steep, and all combinations; from them the octants.
+  Float8 sums[8] = {};
+  for (int i = 0; i < points.padded_size(); i += kSides) {
+    const Float8 x = load8(points.x() + i), y = load8(points.y() + i);
+    const Float8 left = ones8(x < 0), below = ones8(y < 0), steep = ones8(abs8(y) > abs8(x));
+    sums[0] += left;
+    sums[1] += below;
+    sums[2] += steep;
+    sums[3] += left * below;
+    sums[4] += left * steep;
+    sums[5] += below * steep;
+    sums[6] += left * below * steep;
   }
-  const Lanes next_angle = rotated(first_angle, 1), next_enters = rotated(enters, 1);
-  float twice = 0, arcs = 0;
-  for (int j = 0; j < kSides; ++j) {
-    twice += chords[j];
-    const float arc = kEighthTurn + next_angle[j] - last_angle[j];
-    arcs += leaves[j] + next_enters[j] > 0 ? arc : 0.0f;
-  }
-  return std::max((twice + arcs * (radius * radius)) / 2, 0.0f);
+  const Float8 s = reduce8(sums, Add8{});
+  const auto number = [&](int k) { return static_cast<int>(s[k]); };
+  const int left = number(0), below = number(1), steep = number(2), left_below = number(3);
+  const int left_steep = number(4), below_steep = number(5), all = number(6);
+  const int right_above = points.size() - left - below + left_below;
+  const int right_above_steep = steep - left_steep - below_steep + all;
+  return {right_above - right_above_steep,
+          right_above_steep,
+          left_steep - all,
+          left - left_below - left_steep + all,
+          left_below - all,
+          all,
+          below_steep - all,
+          below - left_below - below_steep + all};
 }
 
 Octants octant_boxes(const PlanePoints& points) {
@@ -182,7 +221,7 @@ Octants octant_boxes(const PlanePoints& points) {
     const Folded p = fold(x, y);
     const float supports[4] = {p.a, p.b, p.sum, p.difference};
     std::array<float, 4>& m = most[octant(x, y)];
-    for (int k = 0; k < 4; ++k) m[k] = greater(m[k], supports[k]);
+    for (int k = 0; k < 4; ++k) m[k] = std::max(m[k], supports[k]);
   }
   Octants boxes;
   for (int i = 0; i < kSides; ++i) {
@@ -210,31 +249,32 @@ Octants split(const Lanes& box) {
     parts.b[i] = b;
     parts.a[i] = a;
     parts.difference[i] = difference;
-    parts.sum[i] = std::min(std::min(p, a + b), std::min(m + 2 * b, 2 * a));
+    parts.sum[i] = std::min(p, a + b);
   }
   return parts;
 }
 
 Lanes octant_areas(const Octants& octants, float radius) {
+  const Float8 a = load8(octants.a.data()), b = load8(octants.b.data());
+  const Float8 p = load8(octants.sum.data()), m = load8(octants.difference.data());
+  // Sides at -45, 0, 45 and 90 degrees, from (m, 0) over (a, a - m), (a, p - a), (p - b, b) to
+  // (b, b).
+  const Chords low = chords(m * kSqrtHalf, m * kSqrtHalf, (2 * a - m) * kSqrtHalf, radius);
+  const Chords right = chords(a, a - m, p - a, radius);
+  const Chords high =
+      chords(p * kSqrtHalf, (p - 2 * a) * kSqrtHalf, (2 * b - p) * kSqrtHalf, radius);
+  const Chords top = chords(b, b - p, -b, radius);
+  const auto arc = [](const Chords& from, const Chords& to) {
+    const Float8 angle = kEighthTurn + to.first_angle - from.last_angle;
+    return from.leaves + to.enters > 0 ? angle : splat8(0);
+  };
+  const Float8 arcs = low.enters * (low.first_angle - kEighthTurn) + arc(low, right) +
+                      arc(right, high) + arc(high, top) -
+                      top.leaves * (kEighthTurn + top.last_angle);
+  const Float8 twice = low.twice_area + right.twice_area + high.twice_area + top.twice_area +
+                       arcs * (radius * radius);
   Lanes areas;
-  for (int i = 0; i < kSides; ++i) {
-    const float a = octants.a[i], b = octants.b[i], p = octants.sum[i], m = octants.difference[i];
-    // Sides at -45, 0, 45 and 90 degrees, from (m, 0) over (a, a - m), (a, p - a), (p - b, b) to
-    // (b, b).
-    const float da = a, db = b, dp = p * kSqrtHalf, dm = m * kSqrtHalf;
-    const Chord cm = chord(dm, dm, (2 * a - m) * kSqrtHalf, radius);
-    const Chord ca = chord(da, a - m, p - a, radius);
-    const Chord cp = chord(dp, (p - 2 * a) * kSqrtHalf, (2 * b - p) * kSqrtHalf, radius);
-    const Chord cb = chord(db, b - p, -b, radius);
-    float arcs = cm.enters ? cm.first_angle - kEighthTurn : 0.0f;
-    arcs += cm.leaves || ca.enters ? kEighthTurn + ca.first_angle - cm.last_angle : 0.0f;
-    arcs += ca.leaves || cp.enters ? kEighthTurn + cp.first_angle - ca.last_angle : 0.0f;
-    arcs += cp.leaves || cb.enters ? kEighthTurn + cb.first_angle - cp.last_angle : 0.0f;
-    arcs += cb.leaves ? -kEighthTurn - cb.last_angle : 0.0f;
-    const float twice = dm * (cm.last - cm.first) + da * (ca.last - ca.first) +
-                        dp * (cp.last - cp.first) + db * (cb.last - cb.first);
-    areas[i] = std::max((twice + arcs * (radius * radius)) / 2, 0.0f);
-  }
+  store8(areas.data(), max8(twice / 2, splat8(0)));
   return areas;
 }
 

@@ -8,46 +8,42 @@
 namespace octolux {
 namespace {
 
-class Projection {
- public:
-  Projection(const GatherPoint& at, const Disc& disc)
-      : frame_(Frame::from_normal(at.at.facing_normal())),
-        origin_(at.at.point().position),
-        scale_(1 / std::sqrt(disc.r2)) {}
-
-  Vec2 operator()(Vec3 p) const {
-    const Vec3 d = (p - origin_) * scale_;
-    return {dot(d, frame_.s), dot(d, frame_.t)};
+/// Gathers the photons that `counts` says, relative to the query, and projects them.
+template <class Counts>
+void project(const GatherPoint& at, const PhotonMap& map, const Disc& disc, PlanePoints& points,
+             Counts&& counts) {
+  thread_local PlanePoints::Positions positions;
+  positions.resize(static_cast<int>(disc.photons.size()));
+  float* x = positions.x.data();
+  float* y = positions.y.data();
+  float* z = positions.z.data();
+  float* distance2 = positions.distance2.data();
+  const Vec3 origin = at.at.point().position;
+  int count = 0;
+  for (const Neighbour& near : disc.photons) {
+    if (!counts(near)) continue;
+    const Vec3 p = map.position(near.photon);
+    x[count] = p.x - origin.x;
+    y[count] = p.y - origin.y;
+    z[count] = p.z - origin.z;
+    distance2[count] = near.distance2;
+    ++count;
   }
-
- private:
-  Frame frame_;
-  Vec3 origin_;
-  float scale_;
-};
+  const Frame frame = Frame::from_normal(at.at.facing_normal());
+  const float scale = 1 / std::sqrt(disc.r2);
+  points.project(positions, count, frame.s * scale, frame.t * scale, disc.h2);
+}
 
 }  // namespace
 
 void project_photons(const GatherPoint& at, const PhotonMap& map, const Disc& disc,
                      PlanePoints& points) {
-  const Projection projection(at, disc);
-  points.resize(static_cast<int>(disc.photons.size()));
-  int i = 0;
-  for (const Neighbour& near : disc.photons) {
-    points.set(i++, projection(map.position(near.photon)), near.distance2 < disc.h2);
-  }
+  project(at, map, disc, points, [](const Neighbour&) { return true; });
 }
 
 void project_inner_photons(const GatherPoint& at, const PhotonMap& map, const Disc& disc,
                            PlanePoints& points) {
-  const Projection projection(at, disc);
-  const auto is_inner = [&](const Neighbour& near) { return near.distance2 < disc.h2; };
-  points.resize(
-      static_cast<int>(std::count_if(disc.photons.begin(), disc.photons.end(), is_inner)));
-  int i = 0;
-  for (const Neighbour& near : disc.photons) {
-    if (is_inner(near)) points.set(i++, projection(map.position(near.photon)), true);
-  }
+  project(at, map, disc, points, [&](const Neighbour& near) { return near.distance2 < disc.h2; });
 }
 
 }  // namespace octolux

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <memory>
+#include <type_traits>
 
 #include "estimators/disc_search.h"
+#include "estimators/flux_sum.h"
 
 namespace octolux {
 
@@ -14,6 +16,26 @@ struct FlatKernel {
   float k(float /*s*/) const { return kInvPi; }
 };
 
+/// Values beyond a float's range are its largest, not infinite: powers of photons may span twelve
+/// decades, and areas be tiny.
+inline Rgb in_range(Rgb c) {
+  constexpr float kMost = std::numeric_limits<float>::max();
+  return {std::min(c.r, kMost), std::min(c.g, kMost), std::min(c.b, kMost)};
+}
+
+/// The same for every kernel that does not weigh photons, where f is constant.
+inline Estimate flat_sum(const PhotonMap& map, const Disc& disc, Rgb reflectance) {
+  FluxSum sum;
+  int count = 0;
+  for (const Neighbour& near : disc.photons) {
+    if (!(near.distance2 < disc.h2)) continue;
+    sum.add(map.payload(near.photon).flux);
+    ++count;
+  }
+  const Rgb scale = reflectance * (kInvPi * kInvPi);
+  return {in_range(sum.total() * scale * (1 / disc.h2)), std::sqrt(disc.h2), kPi * disc.h2, count};
+}
+
 /// The sum over a disc's photons: one sum of flux where f is constant, one call of f per photon
 /// elsewhere.
 template <class Kernel>
@@ -21,6 +43,9 @@ Estimate radial_sum(const GatherPoint& at, const PhotonMap& map, const Disc& dis
                     const Kernel& kernel) {
   const float inv_h2 = 1 / disc.h2;
   const std::optional<Rgb> lambertian = at.at.lambertian();
+  if constexpr (std::is_same_v<Kernel, FlatKernel>) {
+    if (lambertian) return flat_sum(map, disc, *lambertian);
+  }
   Rgb total(0);
   int count = 0;
   for (const Neighbour& near : disc.photons) {
@@ -30,7 +55,7 @@ Estimate radial_sum(const GatherPoint& at, const PhotonMap& map, const Disc& dis
     ++count;
   }
   const Rgb scale = lambertian ? *lambertian * kInvPi : Rgb(1);
-  return {total * scale * inv_h2, std::sqrt(disc.h2), kPi * disc.h2, count};
+  return {in_range(total * scale * inv_h2), std::sqrt(disc.h2), kPi * disc.h2, count};
 }
 
 template <class Kernel>

@@ -40,7 +40,7 @@ class Region final : public Estimator {
       return disc.empty() ? Estimate{} : radial_sum(at, map, disc, Tapered{});
     }
     Estimate estimate = radial_sum(at, map, found.disc, Tapered{});
-    estimate.radiance *= static_cast<float>(1 / share);
+    estimate.radiance = in_range(estimate.radiance * static_cast<float>(1 / share));
     estimate.area *= static_cast<float>(share);
     return estimate;
   }

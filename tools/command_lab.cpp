@@ -1,5 +1,6 @@
 // `octolux lab`: estimators against truth, without rendering.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -9,6 +10,7 @@
 #include "core/file_io.h"
 #include "tools/commands.h"
 #include "tools/lab/csv_photons.h"
+#include "tools/lab/reach.h"
 #include "tools/lab/report.h"
 
 namespace octolux {
@@ -24,7 +26,7 @@ struct LabArguments {
   std::uint64_t seed = 1;
   std::optional<double> angle, distance, size;
   double shrink = 1;
-  bool angles = false, low_discrepancy = false, time = false, list = false;
+  bool angles = false, low_discrepancy = false, time = false, reach = false;
   std::string csv, json, plot, photons, queries;
 };
 
@@ -51,7 +53,8 @@ void add_options(CLI::App& verb, LabArguments& a) {
   verb.add_option("--neighbours", a.neighbours, "Photons in a look-up (default: 3 to 2000)")
       ->type_name("N")
       ->check(CLI::Range(1, 100000).description(""));
-  verb.add_option("--runs", a.runs, "Look-ups of 50 photons; of more, in proportion fewer (4000)")
+  verb.add_option("--runs", a.runs,
+                  "Look-ups of 50 photons; of n photons 50/n times as many (4000)")
       ->type_name("N")
       ->check(CLI::Range(16, 100000000).description(""));
   verb.add_option("--angle", a.angle, "Turn the case by this angle (default: all round)")
@@ -66,6 +69,7 @@ void add_options(CLI::App& verb, LabArguments& a) {
       ->check(CLI::Range(1e-3, 1.0).description(""));
   verb.add_flag("--low-discrepancy", a.low_discrepancy, "Evenly spread photons, not Poisson");
   verb.add_flag("--time", a.time, "Measure nanoseconds per query as well");
+  verb.add_flag("--reach", a.reach, "Print the worst figures of every kernel as a Markdown table");
   verb.add_option("--seed", a.seed, "Another seed draws other photons (1)")->type_name("N");
   verb.add_option("--csv", a.csv, "Write the figures as CSV")->type_name("FILE");
   verb.add_option("--json", a.json, "Write the figures as JSON")->type_name("FILE");
@@ -105,7 +109,7 @@ LabTable run_case(const LabArguments& a, LabSettings settings, const std::string
   if (!(distance >= 0) || !(size >= 0) || (chosen.size > 0 && size == 0)) {
     throw Error("--distance must be 0 or more, and --size above 0");
   }
-  LabTable table{fmt::format("{} (distance {:g}; size {:g})", name, distance, size), {}};
+  LabTable table{lab_title(chosen, distance, size), {}};
   const LabLayout layout = chosen.layout(distance, size);
   const int steps = a.angles ? static_cast<int>(90 / kAngleStep) : 0;
   for (int i = 0; i <= steps; ++i) {
@@ -136,6 +140,19 @@ int run_cases(const LabArguments& a) {
   write_text(a.json, to_json(tables));
   if (!a.plot.empty()) {
     write_text(a.plot, to_svg(tables, a.angles ? PlotAxis::angle : PlotAxis::neighbours));
+  }
+  return 0;
+}
+
+/// What the kernels reach, for estimators/README.md.
+int run_reach(const LabArguments& a) {
+  const LabSettings settings = make_settings(a);
+  std::vector<std::string> header{"worst over all"};
+  for (const LabKernel& kernel : settings.kernels) header.push_back(kernel.name);
+  std::vector<std::vector<std::string>> rows = reach_rows(settings);
+  rows.insert(rows.begin(), {header, std::vector<std::string>(header.size(), "---")});
+  for (const std::vector<std::string>& row : rows) {
+    fmt::print("| {} |\n", fmt::join(row, " | "));
   }
   return 0;
 }
@@ -177,6 +194,7 @@ class LabCommand final : public Command {
   }
   bool chosen() const override { return verb_->parsed(); }
   int run() override {
+    if (arguments_.reach) return run_reach(arguments_);
     return arguments_.photons.empty() ? run_cases(arguments_) : run_own_photons(arguments_);
   }
 

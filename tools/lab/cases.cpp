@@ -1,6 +1,8 @@
 // The layouts. Far away means kFar: much farther than any look-up reaches.
 #include "tools/lab/cases.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -125,6 +127,13 @@ const LabCase& find_lab_case(const std::string& name) {
     names.emplace_back(known.name);
   }
   throw Error(unknown_name("case", name, names));
+}
+
+std::string lab_title(const LabCase& lab_case, double distance, double size) {
+  std::string title = lab_case.name;
+  if (distance > 0) title += fmt::format(" at {:g}", distance);
+  if (lab_case.size > 0) title += fmt::format(" size {:g}", size);
+  return title;
 }
 
 bool contains(const FloorPiece& piece, Point2 p) {

@@ -46,6 +46,9 @@ std::span<const LabCase> lab_cases();
 /// Throws Error for an unknown name.
 const LabCase& find_lab_case(const std::string& name);
 
+/// The case's name with the parameters it has.
+std::string lab_title(const LabCase& lab_case, double distance, double size);
+
 bool contains(const FloorPiece& piece, Point2 p);
 /// Floor within the disc of `radius` on the query's side, weighted by irradiance.
 double near_flux(const LabLayout& layout, double radius);

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "estimators/radial.h"
 
 namespace octolux {
 namespace {
@@ -82,7 +83,7 @@ LabResult summary(const Sums& sums, std::int64_t runs) {
 }
 
 std::vector<LabResult> measure_one(const Experiment& e) {
-  const double share = std::min(1.0, 50.0 / e.neighbours);
+  const double share = 50.0 / e.neighbours;  // noise is about 1 / sqrt(neighbours)
   const auto runs = std::max<std::int64_t>(16, static_cast<std::int64_t>(e.settings.runs * share));
   std::vector<std::vector<Sums>> parts(static_cast<std::size_t>((runs + kChunk - 1) / kChunk));
   parallel_for_chunks(runs, kChunk, [&](std::int64_t c, std::int64_t begin, std::int64_t end) {
@@ -186,7 +187,7 @@ Estimate LabQuery::irradiance(const Estimator& estimator, const PhotonMap& map,
   at.caster = caster;
   at.turn = turn;
   Estimate estimate = estimator.estimate(at, map, bandwidth);
-  estimate.radiance *= kPi;
+  estimate.radiance = in_range(estimate.radiance * kPi);
   return estimate;
 }
 

@@ -22,7 +22,7 @@ LabKernel parse_lab_kernel(const std::string& text);
 struct LabSettings {
   std::vector<LabKernel> kernels;
   std::vector<int> neighbours;
-  int runs = 4000;    // look-ups for 50 photons and fewer; in proportion fewer for more
+  int runs = 4000;    // look-ups of 50 photons; for the same error, of n photons 50/n times as many
   double angle = -1;  // [degrees]; < 0: sixteen angles over the whole turn
   double shrink = 1;  // of the bandwidth
   PhotonPattern pattern = PhotonPattern::poisson;
@@ -55,6 +55,7 @@ class LabQuery {
   /// `wo`: unit, towards the viewer. Kernels that look at the geometry need it at a point that is
   /// on a wall: there it alone says on which side.
   LabQuery(Vec3 position, Vec3 normal, Vec3 wo);
+  /// The estimate with the irradiance [W m^-2] in place of the radiance.
   Estimate irradiance(const Estimator& estimator, const PhotonMap& map, const Bandwidth& bandwidth,
                       const RayCaster* caster, float turn) const;
 

@@ -112,7 +112,7 @@ std::string axes(const Panel& panel, const std::string& title) {
   }
   const bool angle = panel.axis == PlotAxis::angle;
   const double x_step = angle ? tick_step(panel.x.high - panel.x.low) : 1;
-  for (double v = std::ceil(panel.x.low / x_step - 1e-9) * x_step; v <= panel.x.high + 1e-9;
+  for (double v = std::ceil(panel.x.low / x_step - 1e-9) * x_step + 0.0; v <= panel.x.high + 1e-9;
        v += x_step) {
     svg += line(panel.x(v), bottom, panel.x(v), top, "stroke=\"#ddd\"");
     svg += text_at(panel.x(v), bottom + 15, "middle",

@@ -1,0 +1,67 @@
+// The corrected OctoBox held to what it must reach (tools/lab/reach.h). A figure passes if it is
+// within its limit by the standard error that the number of tests asks for.
+#include "tools/lab/reach.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/stats.h"
+
+namespace octolux {
+namespace {
+
+constexpr double kDeviates = 4.5;  // of 300 comparisons, one in 10^4 suites
+
+LabSettings settings_for(const char* kernel, int runs) {
+  LabSettings settings;
+  settings.kernels = {parse_lab_kernel(kernel)};
+  settings.runs = runs;
+  return settings;
+}
+
+TEST(ReachSlow, BiasOfOctoBox) {
+  for (const ReachMeasure& measure : reach_measures()) {
+    const bool plane = measure.limit < 0.01;
+    // On the plane a standard error of a fifth of the limit.
+    const LabSettings settings = settings_for("octobox", plane ? 30000 : 6000);
+    for (const LabResult& r : worst_bias(measure, settings)) {
+      EXPECT_LT(std::abs(r.bias()) - kDeviates * r.standard_error, measure.limit)
+          << measure.name << " n " << r.neighbours << ": " << r.bias() << " +- "
+          << r.standard_error;
+    }
+  }
+}
+
+TEST(ReachSlow, NoiseOfOctoBox) {
+  // A ratio of two standard deviations of the same photons: its own is below 1 / sqrt(runs).
+  const LabSettings settings = settings_for("octobox", 40000);
+  EXPECT_LT(worst_noise(settings, {50, 60, 80, 100, 150, 200})[0], 1.1 + 4 / std::sqrt(10000.0));
+  EXPECT_LT(worst_noise(settings, {5, 7, 10, 15, 20, 30, 40})[0], 1.3);
+}
+
+TEST(Reach, ACoarseLook) {
+  for (const ReachMeasure& measure : reach_measures()) {
+    ReachMeasure coarse = measure;
+    coarse.neighbours = {50, 200};
+    for (const LabResult& r : worst_bias(coarse, settings_for("octobox", 400))) {
+      EXPECT_LT(std::abs(r.bias()) - kDeviates * r.standard_error, measure.limit)
+          << measure.name << " n " << r.neighbours << ": " << r.bias();
+    }
+  }
+}
+
+TEST(Reach, TheMeasuresCanFail) {
+  for (const ReachMeasure& measure : reach_measures()) {
+    if (measure.limit < 0.01) continue;
+    ReachMeasure coarse = measure;
+    coarse.neighbours = {100};
+    coarse.places.resize(1);
+    if (std::string(coarse.places[0].lab_case) == "plane" || coarse.places[0].distance == 0.6) {
+      continue;
+    }
+    const LabResult disc = worst_bias(coarse, settings_for("disc", 400))[0];
+    EXPECT_GT(std::abs(disc.bias()), measure.limit) << measure.name;
+  }
+}
+
+}  // namespace
+}  // namespace octolux
