@@ -170,7 +170,7 @@ int run_own_photons(const LabArguments& a) {
   bandwidth.shrink = static_cast<float>(a.shrink);
   std::string text = "query,kernel,neighbours,r,g,b,h,area,count\n";
   for (std::size_t q = 0; q < queries.size(); ++q) {
-    const LabQuery query(queries[q].position, queries[q].normal, queries[q].normal);
+    const LabQuery query(queries[q].position, queries[q].normal);
     for (const LabKernel& kernel : settings.kernels) {
       for (const int n : a.neighbours) {
         EstimatorConfig config = kernel.config;

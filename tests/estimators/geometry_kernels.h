@@ -4,7 +4,7 @@
 #include <functional>
 #include <memory>
 
-#include "core/bsdf.h"
+#include "core/bsdf_makers.h"
 #include "core/texture.h"
 #include "estimators/estimator.h"
 #include "tests/estimators/rooms.h"

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "core/bsdf_makers.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "estimators/radial.h"
@@ -163,8 +164,7 @@ void measure_time(const LabSettings& settings, std::vector<LabResult>& results) 
       const Clock::time_point start = Clock::now();
       for (int i = 0; i < kQueries; ++i) {
         const Vec2 u = rng.uniform2();
-        const LabQuery query({kSide * (0.25f + u.x / 2), kSide * (0.25f + u.y / 2), 0}, {0, 0, 1},
-                             {0, 0, 1});
+        const LabQuery query({kSide * (0.25f + u.x / 2), kSide * (0.25f + u.y / 2), 0}, {0, 0, 1});
         query.irradiance(*estimator, map, {}, &worlds[0]->caster(), u.x);
       }
       best = std::min(best, std::chrono::duration<double, std::nano>(Clock::now() - start).count());

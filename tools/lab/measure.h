@@ -55,6 +55,7 @@ class LabQuery {
   /// `wo`: unit, towards the viewer. Kernels that look at the geometry need it at a point that is
   /// on a wall: there it alone says on which side.
   LabQuery(Vec3 position, Vec3 normal, Vec3 wo);
+  LabQuery(Vec3 position, Vec3 normal) : LabQuery(position, normal, normal) {}
   /// The estimate with the irradiance [W m^-2] in place of the radiance.
   Estimate irradiance(const Estimator& estimator, const PhotonMap& map, const Bandwidth& bandwidth,
                       const RayCaster* caster, float turn) const;
