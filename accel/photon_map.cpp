@@ -180,13 +180,17 @@ float PhotonMap::rough_distance(Vec3 position, std::size_t k) const {
   PhotonTreeWalk walk(tree_, position);
   const std::uint32_t b = walk.next<PhotonTreeWalk::Order::nearest_first>(kInfinity);
   if (b == PhotonTreeWalk::kEnd) return kInfinity;
+  const PhotonTree::Block& block = tree_.block(b);
   float sum = 0;
   float count = 0;
   for (std::uint32_t lane = 0; lane < PhotonTree::kBlockSize; ++lane) {
-    const float d2 = length2(tree_.position(b * PhotonTree::kBlockSize + lane) - position);
-    if (!(d2 < kInfinity)) continue;
-    sum += d2;
-    ++count;
+    const float dx = block.x[lane] - position.x;
+    const float dy = block.y[lane] - position.y;
+    const float dz = block.z[lane] - position.z;
+    const float d2 = dx * dx + dy * dy + dz * dz;
+    const bool there = d2 < kInfinity;
+    sum += there ? d2 : 0;
+    count += there ? 1 : 0;
   }
   // Two random points of a square leaf are at a mean squared distance of a third of its area.
   const float area = 3 * sum / count;

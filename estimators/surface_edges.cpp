@@ -27,48 +27,48 @@ struct Exit {
   HalfPlane line;
 };
 
-using Corners = std::array<Vec2, 3>;
+/// A triangle in the tangent plane: its inside is that of three half planes. Not those of the
+/// query: c < 0 where the query is outside.
+using Sides = std::array<HalfPlane, 3>;
 
-std::optional<Corners> corners(const RayCaster& caster, const TangentPlane& plane,
-                               std::uint32_t shape, std::uint32_t primitive) {
+std::optional<Sides> sides_of(const RayCaster& caster, const TangentPlane& plane,
+                              std::uint32_t shape, std::uint32_t primitive) {
   const auto triangle = caster.triangle(shape, primitive);
   if (!triangle) return std::nullopt;
-  Corners p;
+  std::array<Vec2, 3> p;
   for (int i = 0; i < 3; ++i) p[i] = plane.project((*triangle)[i]);
   if (cross(p[1] - p[0], p[2] - p[0]) < 0) std::swap(p[1], p[2]);
-  return p;
-}
-
-HalfPlane side(const Corners& p, int i) {
-  const Vec2 edge = p[(i + 1) % 3] - p[i];
-  const float size = length(edge);
-  const Vec2 a = Vec2{edge.y, -edge.x} * (size > 0 ? 1 / size : 0);
-  return {a, dot(a, p[i])};
-}
-
-Exit exit_of(const Corners& p, Vec2 direction) {
-  Exit exit{kInfinity, {}};
+  Sides sides;
   for (int i = 0; i < 3; ++i) {
-    const HalfPlane line = side(p, i);
-    const float slope = dot(line.a, direction);
-    if (!(slope > 0)) continue;
-    const float at = std::max(line.c, 0.0f) / slope;
-    if (at < exit.at) exit = {at, {line.a, std::max(line.c, 0.0f)}};
+    const Vec2 edge = p[(i + 1) % 3] - p[i];
+    const float size = length(edge);
+    const Vec2 a = Vec2{edge.y, -edge.x} * (size > 0 ? 1 / size : 0);
+    sides[i] = {a, dot(a, p[i])};
+  }
+  return sides;
+}
+
+Exit exit_of(const Sides& sides, Vec2 direction) {
+  Exit exit{kInfinity, {}};
+  for (const HalfPlane& side : sides) {
+    const float slope = dot(side.a, direction);
+    const float c = std::max(side.c, 0.0f);
+    if (slope > 0 && c < exit.at * slope) exit = {c / slope, {side.a, c}};
   }
   return exit;
 }
 
 /// The query's own triangle, if it says which one that is.
-std::optional<Corners> own_triangle(const RayCaster& caster, const FeelerQuery& query,
-                                    const TangentPlane& plane) {
-  const auto p = corners(caster, plane, query.point.shape, query.point.primitive);
-  if (!p) return std::nullopt;
-  for (int i = 0; i < 3; ++i) {
-    if (!(side(*p, i).c >= -plane.lift)) return std::nullopt;
+std::optional<Sides> own_triangle(const RayCaster& caster, const FeelerQuery& query,
+                                  const TangentPlane& plane) {
+  const auto sides = sides_of(caster, plane, query.point.shape, query.point.primitive);
+  if (!sides) return std::nullopt;
+  for (const HalfPlane& side : *sides) {
+    if (!(side.c >= -plane.lift)) return std::nullopt;
   }
   const Vec3 corner = (*caster.triangle(query.point.shape, query.point.primitive))[0];
   return std::abs(plane.height(corner)) <= plane.lift + 0x1p-10f * length(corner - plane.origin)
-             ? p
+             ? sides
              : std::nullopt;
 }
 
@@ -90,7 +90,7 @@ bool found(const TangentPlane& plane, const PacketHit& hit, const Ray& ray) {
 class Search {
  public:
   Search() = default;
-  Search(const Feeler& feeler, const std::optional<Corners>& own, float tolerance)
+  Search(const Feeler& feeler, const std::optional<Sides>& own, float tolerance)
       : direction_(feeler.direction),
         hi_(std::max(feeler.end - tolerance, 0.0f)),
         tolerance_(tolerance) {
@@ -102,7 +102,7 @@ class Search {
   bool missing() const { return missing_; }
   Vec2 probe() const { return direction_ * probe_; }
 
-  void present(const std::optional<Corners>& triangle) {
+  void present(const std::optional<Sides>& triangle) {
     lo_ = probe_;
     exit_ = triangle ? exit_of(*triangle, direction_) : Exit{};
     if (exit_.at >= 0) exit_.at = std::max(exit_.at, lo_);
@@ -156,7 +156,7 @@ class Search {
 
 void stop_at_edges(const RayCaster& caster, const FeelerQuery& query, const TangentPlane& plane,
                    Feelers& feelers) {
-  const std::optional<Corners> own = own_triangle(caster, query, plane);
+  const std::optional<Sides> own = own_triangle(caster, query, plane);
   std::array<Search, RayPacket::kSize> searches;
   for (int i = 0; i < feelers.count; ++i) searches[i] = Search(feelers.all[i], own, plane.lift);
   for (int round = 0; round < kMaxProbes; ++round) {
@@ -171,7 +171,7 @@ void stop_at_edges(const RayCaster& caster, const FeelerQuery& query, const Tang
     for (int i = 0; i < feelers.count; ++i) {
       if (searches[i].done()) continue;
       if (found(plane, hits[i], packet.rays[i])) {
-        searches[i].present(corners(caster, plane, hits[i].shape, hits[i].primitive));
+        searches[i].present(sides_of(caster, plane, hits[i].shape, hits[i].primitive));
       } else {
         searches[i].absent();
       }
@@ -185,7 +185,7 @@ void stop_at_edges(const RayCaster& caster, const FeelerQuery& query, const Tang
 std::uint32_t surface_at(const RayCaster& caster, const FeelerQuery& query,
                          const TangentPlane& plane,
                          const std::array<Vec2, RayPacket::kSize>& points, std::uint32_t lanes) {
-  const std::optional<Corners> own = own_triangle(caster, query, plane);
+  const std::optional<Sides> own = own_triangle(caster, query, plane);
   RayPacket packet;
   std::uint32_t present = 0;
   for (int i = 0; i < RayPacket::kSize; ++i) {
