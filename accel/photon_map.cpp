@@ -70,6 +70,27 @@ struct BlockDistances {
       distance2[i] = dx * dx + dy * dy + dz * dz + squash * (along * along);
     }
   }
+  /// A bit for each lane.
+  std::uint32_t nearer_than(float limit) const {
+    std::uint32_t lanes = 0;
+    for (std::uint32_t i = 0; i < PhotonTree::kBlockSize; ++i) {
+      lanes |= static_cast<std::uint32_t>(distance2[i] < limit) << i;
+    }
+    return lanes;
+  }
+};
+
+/// Where a look-up may find photons. Decided at compile time, so a look-up without a region pays
+/// nothing for those with one.
+struct Anywhere {
+  bool contains(Vec3, float) const { return true; }
+};
+struct Inside {
+  const PhotonRegion& region;
+  Vec3 position;
+  bool contains(Vec3 photon, float distance2) const {
+    return distance2 < region.clearance * region.clearance || region.contains(photon - position);
+  }
 };
 
 float squash_factor(const PhotonQuery& query) {
@@ -145,6 +166,40 @@ std::size_t PhotonMap::memory() const {
 
 std::span<const Neighbour> PhotonMap::nearest(const PhotonQuery& query, std::size_t k,
                                               NeighbourBuffer& buffer) const {
+  if (query.region == nullptr) return nearest_in(Anywhere{}, query, k, buffer);
+  return nearest_in(Inside{*query.region, query.position}, query, k, buffer);
+}
+
+std::span<const Neighbour> PhotonMap::within(const PhotonQuery& query,
+                                             NeighbourBuffer& buffer) const {
+  if (query.region == nullptr) return within_in(Anywhere{}, query, buffer);
+  return within_in(Inside{*query.region, query.position}, query, buffer);
+}
+
+float PhotonMap::rough_distance(Vec3 position, std::size_t k) const {
+  PhotonTreeWalk walk(tree_, position);
+  const std::uint32_t b = walk.next<PhotonTreeWalk::Order::nearest_first>(kInfinity);
+  if (b == PhotonTreeWalk::kEnd) return kInfinity;
+  const PhotonTree::Block& block = tree_.block(b);
+  float sum = 0;
+  float count = 0;
+  for (std::uint32_t lane = 0; lane < PhotonTree::kBlockSize; ++lane) {
+    const float dx = block.x[lane] - position.x;
+    const float dy = block.y[lane] - position.y;
+    const float dz = block.z[lane] - position.z;
+    const float d2 = dx * dx + dy * dy + dz * dz;
+    const bool there = d2 < kInfinity;
+    sum += there ? d2 : 0;
+    count += there ? 1 : 0;
+  }
+  // Two random points of a square leaf are at a mean squared distance of a third of its area.
+  const float area = 3 * sum / count;
+  return std::sqrt(area * (static_cast<float>(k) / count) * kInvPi);
+}
+
+template <class Region>
+std::span<const Neighbour> PhotonMap::nearest_in(Region region, const PhotonQuery& query,
+                                                 std::size_t k, NeighbourBuffer& buffer) const {
   k = std::min(k, size());
   if (k == 0) return {};
   const std::size_t full = k + k / 2 + PhotonTree::kBlockSize;
@@ -161,10 +216,14 @@ std::span<const Neighbour> PhotonMap::nearest(const PhotonQuery& query, std::siz
     const std::uint32_t b = walk.next<PhotonTreeWalk::Order::nearest_first>(limit);
     if (b == PhotonTreeWalk::kEnd) break;
     const BlockDistances block(tree_.block(b), query, squash);
-    for (std::uint32_t lane = 0; lane < PhotonTree::kBlockSize; ++lane) {
+    for (std::uint32_t near = block.nearer_than(limit); near != 0; near &= near - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(near));
       const std::uint32_t photon = b * PhotonTree::kBlockSize + lane;
-      if (!(block.distance2[lane] < limit) || !counts(payloads_[photon])) continue;
-      items[count++] = {block.distance2[lane], photon};
+      const float distance2 = block.distance2[lane];
+      if (!counts(payloads_[photon]) || !region.contains(tree_.position(photon), distance2)) {
+        continue;
+      }
+      items[count++] = {distance2, photon};
     }
     if (count >= full) {
       limit = keep_best(items, k, count);
@@ -177,8 +236,9 @@ std::span<const Neighbour> PhotonMap::nearest(const PhotonQuery& query, std::siz
   return {items, count};
 }
 
-std::span<const Neighbour> PhotonMap::within(const PhotonQuery& query,
-                                             NeighbourBuffer& buffer) const {
+template <class Region>
+std::span<const Neighbour> PhotonMap::within_in(Region region, const PhotonQuery& query,
+                                                NeighbourBuffer& buffer) const {
   const float squash = squash_factor(query);
   const float limit = query.max_radius * query.max_radius;
   PhotonFilter counts(query);
@@ -188,10 +248,14 @@ std::span<const Neighbour> PhotonMap::within(const PhotonQuery& query,
     const std::uint32_t b = walk.next<PhotonTreeWalk::Order::left_to_right>(limit);
     if (b == PhotonTreeWalk::kEnd) break;
     const BlockDistances block(tree_.block(b), query, squash);
-    for (std::uint32_t lane = 0; lane < PhotonTree::kBlockSize; ++lane) {
+    for (std::uint32_t near = block.nearer_than(limit); near != 0; near &= near - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(near));
       const std::uint32_t photon = b * PhotonTree::kBlockSize + lane;
-      if (!(block.distance2[lane] < limit) || !counts(payloads_[photon])) continue;
-      buffer.items.push_back({block.distance2[lane], photon});
+      const float distance2 = block.distance2[lane];
+      if (!counts(payloads_[photon]) || !region.contains(tree_.position(photon), distance2)) {
+        continue;
+      }
+      buffer.items.push_back({distance2, photon});
     }
   }
   return buffer.items;

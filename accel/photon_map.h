@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "accel/photon_region.h"
 #include "accel/photon_tree.h"
 #include "core/photon.h"
 
@@ -24,6 +25,7 @@ struct PhotonQuery {
   int max_segments = 255;    // photons with longer paths do not count
   bool both_sides = false;   // count photons arriving from either side (smooth transmission)
   float squash = 3;          // >= 1; metric |d|^2 + (squash^2 - 1) (d . normal)^2 (Jensen 2002)
+  const PhotonRegion* region = nullptr;  // if given, only photons above or below it count
 };
 
 /// A photon near a query's position.
@@ -55,6 +57,11 @@ class PhotonMap {
   /// All photons that count at a distance below query.max_radius, in the map's order.
   std::span<const Neighbour> within(const PhotonQuery& query, NeighbourBuffer& buffer) const;
 
+  /// A guess at the distance of the k-th photon, from the leaf at `position` alone, whether its
+  /// photons count or not: right within a small factor where the density is even. Not 0 unless
+  /// photons coincide; infinite for an empty map.
+  float rough_distance(Vec3 position, std::size_t k) const;
+
   std::size_t size() const { return payloads_.size(); }
   std::size_t rejected() const { return rejected_; }
   /// Bytes held, tree included.
@@ -65,6 +72,13 @@ class PhotonMap {
   Vec3 wi(std::uint32_t photon) const { return octolux::wi(payloads_[photon]); }
 
  private:
+  template <class Region>
+  std::span<const Neighbour> nearest_in(Region region, const PhotonQuery& query, std::size_t k,
+                                        NeighbourBuffer& buffer) const;
+  template <class Region>
+  std::span<const Neighbour> within_in(Region region, const PhotonQuery& query,
+                                       NeighbourBuffer& buffer) const;
+
   PhotonTree tree_;
   std::vector<PhotonPayload> payloads_;  // in the tree's order
   std::size_t rejected_ = 0;

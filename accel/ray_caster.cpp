@@ -45,37 +45,62 @@ const Quadric& quadric_of(void* shape) {
   return std::get<Quadric>(static_cast<const Shape*>(shape)->geometry);
 }
 
-std::optional<QuadricHit> intersect_quadric(void* shape, const RTCRay& r) {
-  return intersect(quadric_of(shape), {r.org_x, r.org_y, r.org_z}, {r.dir_x, r.dir_y, r.dir_z},
-                   r.tnear, r.tfar);
-}
-
 void quadric_bounds(const RTCBoundsFunctionArguments* args) {
   const Bounds box = bounds(*static_cast<const Shape*>(args->geometryUserPtr));
   *args->bounds_o = {box.lower.x, box.lower.y, box.lower.z, 0,
                      box.upper.x, box.upper.y, box.upper.z, 0};
 }
 
+std::optional<QuadricHit> intersect_quadric(void* shape, RTCRayN* ray, unsigned n, unsigned i) {
+  const Vec3 origin{RTCRayN_org_x(ray, n, i), RTCRayN_org_y(ray, n, i), RTCRayN_org_z(ray, n, i)};
+  const Vec3 direction{RTCRayN_dir_x(ray, n, i), RTCRayN_dir_y(ray, n, i),
+                       RTCRayN_dir_z(ray, n, i)};
+  return intersect(quadric_of(shape), origin, direction, RTCRayN_tnear(ray, n, i),
+                   RTCRayN_tfar(ray, n, i));
+}
+
 /// The hit's normal, which nobody reads, carries the object position.
 void quadric_intersect(const RTCIntersectFunctionNArguments* args) {
-  if (!args->valid[0]) return;
-  auto& query = *reinterpret_cast<RTCRayHit*>(args->rayhit);
-  const auto hit = intersect_quadric(args->geometryUserPtr, query.ray);
-  if (!hit) return;
-  query.ray.tfar = hit->t;
-  query.hit.Ng_x = hit->position.x;
-  query.hit.Ng_y = hit->position.y;
-  query.hit.Ng_z = hit->position.z;
-  query.hit.u = query.hit.v = 0;
-  query.hit.primID = args->primID;
-  query.hit.geomID = args->geomID;
-  query.hit.instID[0] = args->context->instID[0];
+  const unsigned n = args->N;
+  RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, n);
+  RTCHitN* record = RTCRayHitN_HitN(args->rayhit, n);
+  for (unsigned i = 0; i < n; ++i) {
+    if (!args->valid[i]) continue;
+    const auto hit = intersect_quadric(args->geometryUserPtr, ray, n, i);
+    if (!hit) continue;
+    RTCRayN_tfar(ray, n, i) = hit->t;
+    RTCHitN_Ng_x(record, n, i) = hit->position.x;
+    RTCHitN_Ng_y(record, n, i) = hit->position.y;
+    RTCHitN_Ng_z(record, n, i) = hit->position.z;
+    RTCHitN_u(record, n, i) = RTCHitN_v(record, n, i) = 0;
+    RTCHitN_primID(record, n, i) = args->primID;
+    RTCHitN_geomID(record, n, i) = args->geomID;
+    RTCHitN_instID(record, n, i, 0) = args->context->instID[0];
+  }
 }
 
 void quadric_occluded(const RTCOccludedFunctionNArguments* args) {
-  if (!args->valid[0]) return;
-  auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
-  if (intersect_quadric(args->geometryUserPtr, ray)) ray.tfar = -kInfinity;
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (!args->valid[i]) continue;
+    if (intersect_quadric(args->geometryUserPtr, args->ray, args->N, i)) {
+      RTCRayN_tfar(args->ray, args->N, i) = -kInfinity;
+    }
+  }
+}
+
+RTCRayHit8 to_embree(const RayPacket& packet) {
+  RTCRayHit8 query{};
+  RTCRay8& r = query.ray;
+  for (int i = 0; i < RayPacket::kSize; ++i) {
+    const Ray& ray = packet.rays[i];
+    r.org_x[i] = ray.origin.x, r.org_y[i] = ray.origin.y, r.org_z[i] = ray.origin.z;
+    r.dir_x[i] = ray.direction.x, r.dir_y[i] = ray.direction.y, r.dir_z[i] = ray.direction.z;
+    r.tnear[i] = ray.t_min;
+    r.tfar[i] = ray.t_max;
+    r.mask[i] = ~0u;
+    query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+  }
+  return query;
 }
 
 Owned<RTCGeometry> make_triangles(RTCDevice device, const TriangleMesh& mesh) {
@@ -157,6 +182,37 @@ bool RayCaster::occluded(const Ray& ray) const {
   rtcInitIntersectContext(&context);
   rtcOccluded1(impl_->scene.get(), &context, &query);
   return query.tfar < 0;
+}
+
+std::array<PacketHit, RayPacket::kSize> RayCaster::closest_hits(const RayPacket& packet) const {
+  constexpr int kSize = RayPacket::kSize;
+  alignas(32) std::array<int, kSize> valid;
+  for (int i = 0; i < kSize; ++i) valid[i] = (packet.active >> i & 1) ? -1 : 0;
+  RTCRayHit8 query = to_embree(packet);
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect8(valid.data(), impl_->scene.get(), &context, &query);
+  std::array<PacketHit, kSize> hits;
+  const RTCHit8& hit = query.hit;
+  for (int i = 0; i < kSize; ++i) {
+    if (!valid[i] || hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+    const Vec3 record{hit.Ng_x[i], hit.Ng_y[i], hit.Ng_z[i]};
+    const auto* quadric = std::get_if<Quadric>(&impl_->shapes[hit.geomID[i]].geometry);
+    Vec3 normal = quadric ? surface_point(*quadric, record).ng : normalize(record);
+    if (dot(normal, packet.rays[i].direction) > 0) normal = -normal;
+    hits[i] = {query.ray.tfar[i], normal, hit.geomID[i], hit.primID[i]};
+  }
+  return hits;
+}
+
+std::optional<std::array<Vec3, 3>> RayCaster::triangle(std::uint32_t shape,
+                                                       std::uint32_t primitive) const {
+  if (shape >= impl_->shapes.size()) return std::nullopt;
+  const auto* mesh = std::get_if<TriangleMesh>(&impl_->shapes[shape].geometry);
+  if (mesh == nullptr || primitive >= mesh->triangles.size()) return std::nullopt;
+  const auto& corner = mesh->triangles[primitive];
+  return std::array{mesh->positions[corner[0]], mesh->positions[corner[1]],
+                    mesh->positions[corner[2]]};
 }
 
 SurfacePoint RayCaster::surface(const RayHit& hit) const {

@@ -2,6 +2,7 @@
 // of ray tracer touches. Finds, never shades.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -21,6 +22,22 @@ struct RayHit {
   Vec3 object_position;  // on the unit shape (quadrics)
 };
 
+/// Eight rays for one call. Lanes whose bit in `active` is 0 are not traced.
+struct RayPacket {
+  static constexpr int kSize = 8;
+  std::array<Ray, kSize> rays;
+  std::uint32_t active = 0;
+};
+
+/// Where a ray of a packet met a shape: less than RayHit, and cheaper to have.
+struct PacketHit {
+  float t = kInfinity;  // infinite: nothing hit
+  Vec3 normal;          // geometric, unit, towards the ray's origin
+  std::uint32_t shape = 0;
+  std::uint32_t primitive = 0;
+  bool hit() const { return t < kInfinity; }
+};
+
 /// Thread-safe after construction. Uses Embree's robust mode: edges shared by triangles are
 /// watertight, because a ray slipping between two walls is a light leak. (Vertices are so up to
 /// rounding: of rays aimed at one exactly, a few in a thousand pass.)
@@ -35,6 +52,10 @@ class RayCaster {
   std::optional<RayHit> closest(const Ray& ray) const;
   /// Is anything hit at t in (t_min, t_max)?
   bool occluded(const Ray& ray) const;
+  /// Closest hits of the active lanes.
+  std::array<PacketHit, RayPacket::kSize> closest_hits(const RayPacket& packet) const;
+  /// Corners of a primitive that is a triangle.
+  std::optional<std::array<Vec3, 3>> triangle(std::uint32_t shape, std::uint32_t primitive) const;
   /// The surface at a hit.
   SurfacePoint surface(const RayHit& hit) const;
 

@@ -16,6 +16,10 @@ constexpr Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
 constexpr Vec2 operator*(Vec2 a, float s) { return {a.x * s, a.y * s}; }
 constexpr Vec2 operator*(float s, Vec2 a) { return a * s; }
 constexpr bool operator==(Vec2 a, Vec2 b) { return a.x == b.x && a.y == b.y; }
+constexpr float dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
+/// Twice the area of the triangle 0, a, b; positive if b is to the left of a.
+constexpr float cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
+inline float length(Vec2 a) { return std::sqrt(dot(a, a)); }
 
 struct Vec3 {
   float x = 0, y = 0, z = 0;

@@ -21,6 +21,11 @@ inline BandwidthRule bandwidth_rule(const EstimatorConfig& config) {
   return config.correction ? BandwidthRule::next : BandwidthRule::last;
 }
 
+/// A bandwidth whose square is no normal number has no density: every photon is at the query.
+inline float usable_bandwidth2(float h2) {
+  return h2 >= std::numeric_limits<float>::min() && std::isfinite(h2) ? h2 : 0;
+}
+
 /// The disc of `neighbours` photons around the point. The span points into `buffer`.
 inline Disc find_disc(const GatherPoint& at, const PhotonMap& map, const Bandwidth& bandwidth,
                       int neighbours, NeighbourBuffer& buffer,
@@ -35,9 +40,7 @@ inline Disc find_disc(const GatherPoint& at, const PhotonMap& map, const Bandwid
     if (next) found = found.first(found.size() - 1);
     if (!next && r2 > 0) r2 = std::nextafter(r2, kInfinity);  // so that the last one is nearer
   }
-  const float h2 = r2 * (bandwidth.shrink * bandwidth.shrink);
-  // A bandwidth whose square is no normal number has no density: every photon is at the query.
-  return {found, h2 >= std::numeric_limits<float>::min() && std::isfinite(h2) ? h2 : 0, r2};
+  return {found, usable_bandwidth2(r2 * (bandwidth.shrink * bandwidth.shrink)), r2};
 }
 
 }  // namespace octolux

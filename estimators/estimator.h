@@ -27,6 +27,7 @@ struct EstimatorConfig {
   float cone_slope = 1;          // kappa >= 1 of the cone filter (Jensen)
   std::string octants = "auto";  // OctoBoxes: one, eight (one per octant), auto (as photons allow)
   bool correction = true;        // false: as published, with the bias of finite photon counts
+  int feelers = 8;               // geometry feelers per look-up: 8 or 4
 };
 
 /// Where radiance is wanted.

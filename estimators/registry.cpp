@@ -45,6 +45,7 @@ std::vector<std::string> kernel_names() {
 std::unique_ptr<Estimator> make_estimator(const EstimatorConfig& config) {
   if (config.neighbours < 1) throw Error("neighbours must be at least 1");
   if (!(config.cone_slope >= 1)) throw Error("cone_slope must be at least 1");
+  if (config.feelers != 8 && config.feelers != 4) throw Error("feelers must be 8 or 4");
   parse_octant_use(config.octants);
   for (const Entry& entry : kKernels) {
     if (config.kernel == entry.name) return entry.make(config);

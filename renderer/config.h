@@ -59,6 +59,7 @@ void visit(Config& config, Field&& field) {
   field("estimator.cone_slope", config.estimator.cone_slope);
   field("estimator.octants", config.estimator.octants);
   field("estimator.correction", config.estimator.correction);
+  field("estimator.feelers", config.estimator.feelers);
   field("eye.gather", config.eye.gather);
   field("eye.gather_rays", config.eye.gather_rays);
   field("eye.light_samples", config.eye.light_samples);

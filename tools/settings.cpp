@@ -15,9 +15,12 @@ namespace octolux {
 namespace {
 
 constexpr Shortcut kShortcuts[] = {
-    {"--kernel", "estimator.kernel", "NAME", "Density estimator: disc, cone, octobox or hull"},
+    {"--kernel", "estimator.kernel", "NAME",
+     "Density estimator: disc, cone, octobox, hull, feeler or region"},
     {"--octants", "estimator.octants", "auto|one|eight",
      "OctoBoxes: one, one per octant, or as the photons allow"},
+    {"--feelers", "estimator.feelers", "8|4",
+     "Rays around a look-up of the kernels feeler and region"},
     {"--correction", "estimator.correction", "on|off",
      "Estimators unbiased at finite photon counts; off: as published"},
     {"--neighbours", "estimator.neighbours", "N",

@@ -82,6 +82,7 @@ bool counts(const PhotonMap& map, std::uint32_t photon, const PhotonQuery& query
   const float cosine = dot(normal(map.payload(photon)), query.normal);
   if (!((query.both_sides ? std::abs(cosine) : cosine) > 0.7f)) return false;
   if (!query.both_sides && !(dot(map.wi(photon), query.normal) > 0)) return false;
+  if (query.region && !query.region->contains(map.position(photon) - query.position)) return false;
   return segments(map.payload(photon)) <= query.max_segments;
 }
 
@@ -123,6 +124,23 @@ PhotonQuery random_query(Rng& rng, const PhotonMap& map) {
   query.both_sides = (choice >> 10) % 4 == 0;
   query.squash = (choice >> 15) % 3 == 0 ? 1.0f : 3.0f;
   return query;
+}
+
+/// Random half planes around the query, some of them through it.
+PhotonRegion random_region(Rng& rng, Vec3 normal) {
+  PhotonRegion region;
+  region.s = normalize(cross(normal, random_direction(rng)));
+  region.t = cross(normal, region.s);
+  for (PhotonRegion::Sector& sector : region.sectors) {
+    for (int i = 0; i < PhotonRegion::kLines; ++i) {
+      const float angle = 2 * kPi * rng.uniform();
+      const float distance = 0.5f * rng.uniform();
+      const std::uint32_t choice = rng.next() % 4;
+      if (choice == 0) continue;
+      sector.set(i, {{std::cos(angle), std::sin(angle)}, choice == 1 ? 0 : distance});
+    }
+  }
+  return region;
 }
 
 /// Compares both kinds of look-up; returns how many neighbours were found in all.
@@ -177,6 +195,22 @@ TEST(PhotonMap, EqualsBruteForceAtAllScalesAndFarFromTheOrigin) {
         compare(map, query, 20, buffer);
       }
     }
+  }
+}
+
+TEST(PhotonMap, EqualsBruteForceInsideRegions) {
+  for (const Layout layout : {Layout::plane, Layout::box_faces, Layout::duplicates}) {
+    const PhotonMap map(random_photons(layout, 3001, 11));
+    NeighbourBuffer buffer;
+    Rng rng = rng_of(12);
+    std::size_t found = 0;
+    for (int i = 0; i < 300 && !HasFailure(); ++i) {
+      PhotonQuery query = random_query(rng, map);
+      const PhotonRegion region = random_region(rng, query.normal);
+      query.region = &region;
+      found += compare(map, query, 20, buffer);
+    }
+    EXPECT_GT(found, 300u);
   }
 }
 

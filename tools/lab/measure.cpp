@@ -53,11 +53,11 @@ struct Experiment {
 
 std::vector<Sums> run_chunk(const Experiment& e, std::int64_t begin, std::int64_t end) {
   std::vector<Sums> sums(e.estimators.size());
-  const LabQuery query({0, 0, 0}, {0, 0, 1});
   for (std::int64_t run = begin; run < end; ++run) {
     Rng rng(e.settings.seed, Stream::test, static_cast<std::uint64_t>(e.neighbours),
             static_cast<std::uint64_t>(run));
     const LabWorld& world = *e.worlds[static_cast<std::size_t>(run) % e.worlds.size()];
+    const LabQuery query({}, {0, 0, 1}, world.viewer());
     const PhotonMap map(world.photons(e.neighbours, e.settings.pattern, rng));
     const float turn = rng.uniform();
     Bandwidth bandwidth;
@@ -173,7 +173,8 @@ void measure_time(const LabSettings& settings, std::vector<LabResult>& results) 
   }
 }
 
-LabQuery::LabQuery(Vec3 position, Vec3 normal) : white_(make_diffuse(Color(Rgb(1)))) {
+LabQuery::LabQuery(Vec3 position, Vec3 normal, Vec3 wo)
+    : white_(make_diffuse(Color(Rgb(1)))), wo_(wo) {
   point_.position = position;
   point_.ng = point_.ns = normal;
 }
@@ -181,7 +182,7 @@ LabQuery::LabQuery(Vec3 position, Vec3 normal) : white_(make_diffuse(Color(Rgb(1
 Estimate LabQuery::irradiance(const Estimator& estimator, const PhotonMap& map,
                               const Bandwidth& bandwidth, const RayCaster* caster,
                               float turn) const {
-  const Scattering scattering(point_, *white_, point_.ng, Carried::radiance);
+  const Scattering scattering(point_, *white_, wo_, Carried::radiance);
   GatherPoint at{scattering};
   at.caster = caster;
   at.turn = turn;

@@ -52,7 +52,10 @@ void measure_time(const LabSettings& settings, std::vector<LabResult>& results);
 /// A white surface at a query, so that pi times the radiance is the irradiance.
 class LabQuery {
  public:
-  LabQuery(Vec3 position, Vec3 normal);
+  /// `wo`: unit, towards the viewer. Kernels that look at the geometry need it at a point that is
+  /// on a wall: there it alone says on which side.
+  LabQuery(Vec3 position, Vec3 normal, Vec3 wo);
+  LabQuery(Vec3 position, Vec3 normal) : LabQuery(position, normal, normal) {}
   /// The estimate with the irradiance [W m^-2] in place of the radiance.
   Estimate irradiance(const Estimator& estimator, const PhotonMap& map, const Bandwidth& bandwidth,
                       const RayCaster* caster, float turn) const;
@@ -60,6 +63,7 @@ class LabQuery {
  private:
   std::unique_ptr<Bsdf> white_;
   SurfacePoint point_;
+  Vec3 wo_;
 };
 
 }  // namespace octolux

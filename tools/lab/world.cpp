@@ -82,6 +82,19 @@ double LabWorld::irradiance(Point2 p, bool& near) const {
   return 0;
 }
 
+Vec3 LabWorld::viewer() const {
+  constexpr int kSamples = 1000;
+  Point2 mean{0, 0};
+  for (int i = 0; i < kSamples; ++i) {  // Vogel's spiral covers the disc evenly
+    const double radius = std::sqrt((i + 0.5) / kSamples), angle = 2.399963229728653 * i;
+    const Point2 p{radius * std::cos(angle), radius * std::sin(angle)};
+    bool near = false;
+    irradiance(p, near);
+    if (near) mean.x += p.x / kSamples, mean.y += p.y / kSamples;
+  }
+  return normalize(turned(mean.x, mean.y, 1));
+}
+
 Photon LabWorld::photon_on_floor(Point2 p, double flux) const {
   const Bend at = bend(p.x, layout_.curvature);
   Photon photon;

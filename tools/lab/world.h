@@ -24,6 +24,8 @@ class LabWorld {
   std::vector<Photon> photons(int n, PhotonPattern pattern, Rng& rng) const;
 
   const RayCaster& caster() const { return *caster_; }
+  /// Where the query is seen from: above, and leaning over the floor on its side of the walls.
+  Vec3 viewer() const;
 
  private:
   double irradiance(Point2 p, bool& near) const;

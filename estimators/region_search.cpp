@@ -1,0 +1,68 @@
+// region_search.h: how far the feelers go, and how often.
+#include "estimators/region_search.h"
+
+#include <algorithm>
+
+namespace octolux {
+
+namespace {
+
+/// Length of the first feelers, in units of the guess. Longer ones meet more and cost more in the
+/// open; shorter ones must more often be followed by others near walls.
+constexpr float kMargin = 1.5f;
+
+/// The distance no two points of the scene exceed, or max_radius.
+float search_limit(const GatherPoint& at, const Bandwidth& bandwidth) {
+  constexpr float kRounding = 1.01f;
+  return std::min(bandwidth.max_radius, 2 * kRounding * at.caster->bounds().radius());
+}
+
+}  // namespace
+
+FeelerQuery feeler_query(const GatherPoint& at, int feelers) {
+  FeelerQuery query;
+  query.point = at.at.point();
+  query.normal = at.at.facing_normal();
+  query.wo = at.at.wo();
+  query.feelers = feelers;
+  query.turn = at.turn;
+  return query;
+}
+
+RegionDisc find_in_region(const GatherPoint& at, const PhotonMap& map, const Bandwidth& bandwidth,
+                          const RegionConfig& config, NeighbourBuffer& buffer) {
+  RegionDisc result{{}, FreeRegion(at.at.facing_normal())};
+  if (at.caster == nullptr) {
+    result.disc = find_disc(at, map, bandwidth, config.neighbours, buffer);
+    return result;
+  }
+  const std::size_t wanted = static_cast<std::size_t>(config.neighbours) + 1;
+  const float limit = search_limit(at, bandwidth);
+  PhotonQuery query = photon_query(at, bandwidth);
+  FeelerQuery feelers = feeler_query(at, config.feelers);
+  feelers.edges = config.edges;
+  float reach = kMargin * map.rough_distance(query.position, wanted);
+  if (!(reach > 0)) reach = limit;
+  for (;; reach *= 2) {
+    reach = std::min(reach, limit);
+    if (!(reach > 0)) return result;
+    feelers.length = reach / std::cos(kPi / static_cast<float>(config.feelers));
+    result.region = FreeRegion(*at.caster, feelers);
+    query.region = &result.region.photons();
+    query.max_radius = reach;
+    const std::span<const Neighbour> found = map.nearest(query, wanted, buffer);
+    if (found.size() == wanted) {
+      result.disc = {found.first(found.size() - 1), 0, found.back().distance2};
+      break;
+    }
+    const float all = std::min(result.region.extent(), limit);
+    if (reach < all) continue;
+    result.disc = {found, 0, all * all};
+    break;
+  }
+  Disc& disc = result.disc;
+  disc.h2 = usable_bandwidth2(disc.r2 * (bandwidth.shrink * bandwidth.shrink));
+  return result;
+}
+
+}  // namespace octolux
