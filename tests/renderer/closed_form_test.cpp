@@ -185,13 +185,7 @@ TEST(PhotonFlux, MapsOfAFloorLitByALampHoldItsIrradiance) {
     RenderConfig config = photon_config(32, 50'000);
     config.eye.gather = false;
     config.estimator.kernel = kernel;
-    Running passes;
-    Image before(4, 4);
-    Watch watch([&](const Progress& progress, const Film& film) {
-      const double sum = mean_radiance(film).mean * progress.passes;
-      passes.add(sum - passes.mean() * static_cast<double>(passes.count()));
-    });
-    render(*loaded, config, watch);
+    const Running passes = pass_means(*loaded, config);
     // Bandwidth h = sqrt(20 / (pi * density)) is about 0.06: curvature of E over it adds h^2/8 of
     // the Laplacian, below 0.3 %.
     EXPECT_NEAR(passes.mean(), expected, 4 * passes.standard_error() + 0.003 * expected) << kernel;

@@ -107,6 +107,19 @@ inline MeanRadiance mean_radiance(const Film& film) {
   return out;
 }
 
+/// The mean radiance of each pass by itself: its spread knows what pixels of a pass have in common.
+inline Running pass_means(const Scene& scene, const RenderConfig& config) {
+  Running passes;
+  double before = 0;
+  Watch watch([&](const Progress& progress, const Film& film) {
+    const double sum = mean_radiance(film).mean * progress.passes;
+    passes.add(sum - before);
+    before = sum;
+  });
+  render(scene, config, watch);
+  return passes;
+}
+
 /// mean (x - y)^2 / (y^2 + 0.01) over pixels and channels (DESIGN section 6).
 inline double rel_mse(const Image& image, const Image& reference) {
   double sum = 0;
