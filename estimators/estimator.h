@@ -22,7 +22,7 @@
 namespace octolux {
 
 struct EstimatorConfig {
-  std::string kernel = "cone";
+  std::string kernel = "octobox";
   int neighbours = 20;           // n; the bandwidth is the distance of the next one
   float cone_slope = 1;          // kappa >= 1 of the cone filter (Jensen)
   std::string octants = "auto";  // OctoBoxes: one, eight (one per octant), auto (as photons allow)
