@@ -61,7 +61,7 @@ class Bsdf {
   /// A direction drawn from the lobes of the kinds in `lobes`; empty if there is none or it is
   /// black. `u_lobe` chooses the lobe, `u` the direction; both uniform in [0, 1).
   /// For a non-delta sample: weight = f(wo, wi, lobes) |cos wi| / pdf_w(wo, wi, lobes), so where a
-  /// near-specular and a smooth lobe overlap it carries both; see Scattering::sample_sorted.
+  /// near-specular and a smooth lobe overlap it carries both.
   virtual std::optional<BsdfSample> sample(const SurfacePoint& at, Vec3 wo, float u_lobe, Vec2 u,
                                            Lobes lobes, Carried carried) const = 0;
 

@@ -59,27 +59,6 @@ class Scattering {
     return s;
   }
 
-  /// As `sample`, for photons: their paths are sorted by kind, and kinds can overlap (a shiny coat
-  /// scatters into its base's directions too). Here the weight is that of the sample's kind alone.
-  /// Its kind is chosen, given wi, by the kinds' shares of f, so that summed over the kinds both
-  /// samplers have the same mean. `u_kind`: uniform in [0, 1).
-  std::optional<BsdfSample> sample_sorted(float u_lobe, Vec2 u, float u_kind, Lobes lobes) const {
-    std::optional<BsdfSample> s = sample(u_lobe, u, lobes);
-    const Lobes kinds = lobes & bsdf_.lobes() & Lobes::non_delta;
-    if (!s || s->lobe == Lobes::delta || kinds != Lobes::non_delta) return s;
-    const Rgb whole = f(s->wi, Lobes::non_delta);
-    const Rgb smooth = f(s->wi, Lobes::smooth);
-    if (is_black(whole)) return std::nullopt;
-    const float share = std::min(1.0f, mean(smooth) / mean(whole));
-    const bool is_smooth = u_kind < share;
-    const Rgb part = is_smooth ? smooth : whole - smooth;
-    const float probability = is_smooth ? share : 1 - share;
-    const auto scale = [&](float p, float w) { return w > 0 ? p / (w * probability) : 0.0f; };
-    s->weight *= Rgb(scale(part.r, whole.r), scale(part.g, whole.g), scale(part.b, whole.b));
-    s->lobe = is_smooth ? Lobes::smooth : Lobes::near_specular;
-    return s;
-  }
-
   Rgb pass_through() const { return bsdf_.pass_through(point_, wo_local_); }
   std::optional<Rgb> lambertian() const {
     return wo_ng_ * wo_local_.z > 0 ? bsdf_.lambertian(point_, wo_local_) : std::nullopt;

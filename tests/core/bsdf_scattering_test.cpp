@@ -67,32 +67,5 @@ TEST(Scattering, SampleAgreesWithF) {
   }
 }
 
-TEST(Scattering, SortedSamplesSumToEachKind) {
-  const auto bsdf = make_rough_plastic(
-      {{1.5f, Rgb(0.8f, 0.4f, 0.2f), Rgb(1), false}, MicrofacetKind::ggx, 0.15f});
-  const SurfacePoint at;
-  SurfacePoint point = at;
-  point.ng = point.ns = {0, 0, 1};
-  const Vec3 wo = direction(0.5, 0);
-  const Scattering scattering(point, *bsdf, wo, Carried::flux);
-  Running difference[2];
-  for (int i = 0; i < 100000; ++i) {
-    Rng rng(11, Stream::test, 0, static_cast<std::uint64_t>(i));
-    const float u_lobe = rng.uniform();
-    const Vec2 u = rng.uniform2();
-    const float u_kind = rng.uniform();
-    const auto sorted = scattering.sample_sorted(u_lobe, u, u_kind, Lobes::all);
-    for (const int k : {0, 1}) {
-      const Lobes kind = k == 0 ? Lobes::smooth : Lobes::near_specular;
-      const float v_lobe = rng.uniform();
-      const auto alone = scattering.sample(v_lobe, rng.uniform2(), kind);
-      const float a = sorted && sorted->lobe == kind ? sorted->weight.r : 0;
-      const float b = alone ? alone->weight.r : 0;
-      difference[k].add(static_cast<double>(a - b));
-    }
-  }
-  for (const Running& d : difference) EXPECT_GT(z_test_p(d.z(0)), sidak(kAlpha, 2));
-}
-
 }  // namespace
 }  // namespace octolux
