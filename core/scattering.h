@@ -6,7 +6,6 @@
 // (Veach 1997, 5.3.2) keeps photon and eye paths in agreement.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
