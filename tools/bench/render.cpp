@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <nanoflann.hpp>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -159,6 +160,60 @@ void report_photons(const Scene& scene) {
              bytes, median(build));
 }
 
+/// Photon positions as nanoflann wants them.
+struct Points {
+  std::vector<Vec3> at;
+  std::size_t kdtree_get_point_count() const { return at.size(); }
+  float kdtree_get_pt(std::size_t i, std::size_t axis) const {
+    return at[i][static_cast<int>(axis)];
+  }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+using Tree =
+    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points>, Points, 3>;
+
+/// The first `count` photons of a pass over `scene`.
+std::vector<Photon> photons_of(const Scene& scene, std::uint64_t pass, std::size_t count) {
+  std::vector<Photon> photons =
+      trace_photons(scene, LightSampler(scene), PhotonKind::global, 400'000, {1, pass}).photons;
+  photons.resize(std::min(count, photons.size()));
+  return photons;
+}
+
+/// 50 nearest of 500 000 photons, ours with every test a photon must pass, nanoflann by position.
+void report_look_ups(const Scene& scene) {
+  const std::vector<Photon> photons = photons_of(scene, 0, 500'000);
+  const std::vector<Photon> queries = photons_of(scene, 1, 20'000);
+  Points points;
+  for (const Photon& p : photons) points.at.push_back(p.position);
+  const Tree tree(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(10));
+  const PhotonMap map(photons);
+  std::vector<double> ours, theirs;
+  NeighbourBuffer buffer;
+  std::size_t found = 0;
+  for (int run = 0; run < 5; ++run) {
+    const double start = now();
+    for (const Photon& q : queries) {
+      found += map.nearest({.position = q.position, .normal = q.normal}, 50, buffer).size();
+    }
+    const double middle = now();
+    for (const Photon& q : queries) {
+      std::uint32_t index[50];
+      float distance2[50];
+      found += tree.knnSearch(&q.position.x, 50, index, distance2);
+    }
+    ours.push_back((middle - start) * 1e6 / static_cast<double>(queries.size()));
+    theirs.push_back((now() - middle) * 1e6 / static_cast<double>(queries.size()));
+  }
+  fmt::print(
+      "50 of {} photons, 1 thread {:6.2f} us/look-up      nanoflann {:.2f} us: {:.2f} x; {} "
+      "found\n",
+      photons.size(), median(ours), median(theirs), median(ours) / median(theirs), found);
+}
+
 void report_split(const char* name, const Scene& scene) {
   RenderConfig config;
   config.stop.passes = 8;
@@ -205,6 +260,7 @@ int bench(int argc, char** argv) {
   report_path_rate(*cornell);
   report_ray_share(*cornell);
   report_photons(*cornell);
+  report_look_ups(*cornell);
   report_split("Cornell 256x256", *cornell);
   report_split("two rooms 240x160", *rooms);
   report_equal_time("Cornell 256x256", *cornell, 4);
