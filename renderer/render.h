@@ -44,7 +44,7 @@ struct RenderResult {
 };
 
 /// Renders until the first stop rule is reached; with none set, until the defaults
-/// (kDefaultStop). Throws Error for settings out of range, before any work.
+/// (default_stop). Throws Error for settings out of range, before any work.
 RenderResult render(const Scene& scene, const RenderConfig& config, RenderObserver& observer);
 
 /// Stop rules of a render that was given none.
