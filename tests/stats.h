@@ -1,4 +1,4 @@
-// Statistics that decide tests: z-test, chi-square and Sidak's correction. Tolerances follow from
+// Statistics that decide tests: those of core/statistics.h, and chi-square. Tolerances follow from
 // the variance of what is measured and a stated probability of a false alarm, never from tuning.
 #pragma once
 
@@ -6,38 +6,16 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/statistics.h"
+
 namespace octolux::test {
 
 /// Probability that any single test of this suite fails although the code is right.
 inline constexpr double kAlpha = 1e-4;
 
-/// Significance of each of `tests` comparisons so that together they have `alpha` (Sidak 1967).
-inline double sidak(double alpha, double tests) { return -std::expm1(std::log1p(-alpha) / tests); }
-
-/// Two-sided p-value of a standard normal deviate.
-inline double z_test_p(double z) { return std::erfc(std::abs(z) / std::sqrt(2.0)); }
-
-/// Mean and its variance, in one pass (Welford 1962).
-class Running {
- public:
-  void add(double x) {
-    ++n_;
-    const double d = x - mean_;
-    mean_ += d / static_cast<double>(n_);
-    m2_ += d * (x - mean_);
-  }
-  std::size_t count() const { return n_; }
-  double mean() const { return mean_; }
-  double variance() const { return n_ > 1 ? m2_ / static_cast<double>(n_ - 1) : 0; }
-  double variance_of_mean() const { return n_ > 0 ? variance() / static_cast<double>(n_) : 0; }
-  double standard_error() const { return std::sqrt(variance_of_mean()); }
-  /// Deviate of the mean from `expected`.
-  double z(double expected) const { return (mean() - expected) / standard_error(); }
-
- private:
-  std::size_t n_ = 0;
-  double mean_ = 0, m2_ = 0;
-};
+using octolux::Running;
+using octolux::sidak;
+using octolux::z_test_p;
 
 /// P(X > x) for chi-square with `dof` degrees of freedom: the regularised upper incomplete gamma
 /// function Q(dof/2, x/2), by series or continued fraction (Numerical Recipes 6.2).
