@@ -2,6 +2,9 @@
 //
 // A file is made in memory and written in one piece (file_io.h), because OpenEXR keeps quiet about
 // a disk that fills up while it finishes a file. Pixels survive bit for bit: 32-bit floats, ZIP.
+//
+// Reading unpacks blocks of lines in parallel, each through an opening of the file of its own, so
+// that ThreadLimit (parallel.h) governs it and OpenEXR's global thread pool stays unused.
 #include <ImfChannelList.h>
 #include <ImfChromaticities.h>
 #include <ImfDoubleAttribute.h>
@@ -23,12 +26,16 @@
 #include "core/error.h"
 #include "core/file_io.h"
 #include "core/image_io.h"
+#include "core/parallel.h"
 
 namespace octolux {
 namespace {
 
 /// More pixels than this are a broken header, not a picture.
 constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;
+
+/// Lines unpacked at a time: a multiple of every compression's block of lines and of usual tiles.
+constexpr std::int64_t kLinesPerChunk = 256;
 
 std::string full_name(const Layer& layer, const std::string& channel) {
   return layer.name.empty() ? channel : layer.name + "." + channel;
@@ -127,9 +134,10 @@ std::vector<Layer> layers_of(const std::string& path, const Imf::ChannelList& ch
   return result;
 }
 
-ExrFile decode(const std::string& path) {
-  Imf::InputFile input(path.c_str());
-  const Imath::Box2i window = input.header().dataWindow();
+/// Header, attributes and the chosen layers with names only; none chosen: all.
+ExrFile read_names(const std::string& path, const Imf::Header& header,
+                   const std::vector<std::string>& chosen) {
+  const Imath::Box2i window = header.dataWindow();
   const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
   const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
   if (width < 1 || height < 1 || width > kMaxPixels / height) {
@@ -139,20 +147,73 @@ ExrFile decode(const std::string& path) {
   ExrFile file;
   file.width = static_cast<int>(width);
   file.height = static_cast<int>(height);
-  file.attributes = read_attributes(input.header());
-  file.layers = layers_of(path, input.header().channels());
+  file.attributes = read_attributes(header);
+  file.layers = layers_of(path, header.channels());
   if (file.layers.empty()) throw Error(path + ": has no channels; expected R, G, B or Y");
-  Imf::FrameBuffer buffer;
+  if (chosen.empty()) return file;
+  std::erase_if(file.layers, [&](const Layer& layer) {
+    return std::find(chosen.begin(), chosen.end(), layer.name) == chosen.end();
+  });
+  return file;
+}
+
+/// Gives every channel of `file` its plane.
+void allocate_planes(ExrFile& file) {
+  const auto pixels = static_cast<std::size_t>(file.width) * static_cast<std::size_t>(file.height);
+  std::vector<std::vector<float>*> planes;
   for (Layer& layer : file.layers) {
-    for (const std::string& channel : layer.channels) {
-      layer.planes.emplace_back(static_cast<std::size_t>(width * height));
-      buffer.insert(full_name(layer, channel),
-                    slice_of(layer.planes.back().data(), file.width, window.min));
+    layer.planes.resize(layer.channels.size());
+    for (std::vector<float>& plane : layer.planes) planes.push_back(&plane);
+  }
+  // Fresh memory is slow to touch for the first time.
+  parallel_for_chunks(
+      static_cast<std::int64_t>(planes.size()), 1,
+      [&](std::int64_t i, std::int64_t, std::int64_t) { planes[i]->resize(pixels); });
+}
+
+ExrFile decode(const std::string& path, const std::vector<std::string>& chosen) {
+  const Imf::InputFile first(path.c_str(), 0);
+  const Imath::Box2i window = first.header().dataWindow();
+  ExrFile file = read_names(path, first.header(), chosen);
+  allocate_planes(file);
+  Imf::FrameBuffer buffer;
+  for (const Layer& layer : file.layers) {
+    for (std::size_t c = 0; c < layer.channels.size(); ++c) {
+      buffer.insert(full_name(layer, layer.channels[c]),
+                    slice_of(layer.planes[c].data(), file.width, window.min));
     }
   }
-  input.setFrameBuffer(buffer);
-  input.readPixels(window.min.y, window.max.y);
+  if (file.layers.empty()) return file;
+  parallel_for_chunks(file.height, kLinesPerChunk,
+                      [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+                        Imf::InputFile input(path.c_str(), 0);
+                        input.setFrameBuffer(buffer);
+                        input.readPixels(window.min.y + static_cast<int>(begin),
+                                         window.min.y + static_cast<int>(end) - 1);
+                      });
   return file;
+}
+
+void check_flat(const std::string& path) {
+  std::error_code code;
+  if (!std::filesystem::exists(path, code)) throw Error(path + ": there is no such file");
+  bool tiled = false, deep = false, multi_part = false;
+  if (!Imf::isOpenExrFile(path.c_str(), tiled, deep, multi_part) || deep) {
+    throw Error(path + ": is not a flat OpenEXR file; expected scan lines or tiles");
+  }
+}
+
+/// read(), with OpenEXR's exceptions turned into Error.
+template <class Read>
+ExrFile guarded(const std::string& path, Read&& read) {
+  check_flat(path);
+  try {
+    return read();
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& e) {
+    throw Error(path + ": cannot be read; expected a whole OpenEXR file: " + e.what());
+  }
 }
 
 }  // namespace
@@ -163,20 +224,13 @@ void write_exr(const std::string& path, const ExrFile& file) {
   write_file(path, encode(file));
 }
 
-ExrFile read_exr(const std::string& path) {
-  std::error_code code;
-  if (!std::filesystem::exists(path, code)) throw Error(path + ": there is no such file");
-  bool tiled = false, deep = false, multi_part = false;
-  if (!Imf::isOpenExrFile(path.c_str(), tiled, deep, multi_part) || deep) {
-    throw Error(path + ": is not a flat OpenEXR file; expected scan lines or tiles");
-  }
-  try {
-    return decode(path);
-  } catch (const Error&) {
-    throw;
-  } catch (const std::exception& e) {
-    throw Error(path + ": cannot be read; expected a whole OpenEXR file: " + e.what());
-  }
+ExrFile read_exr(const std::string& path, const std::vector<std::string>& layers) {
+  return guarded(path, [&] { return decode(path, layers); });
+}
+
+ExrFile read_exr_header(const std::string& path) {
+  return guarded(path,
+                 [&] { return read_names(path, Imf::InputFile(path.c_str(), 0).header(), {}); });
 }
 
 }  // namespace octolux

@@ -42,8 +42,11 @@ struct ExrFile {
 
 /// 32-bit float, ZIP, Rec.709 chromaticities. Throws Error (with the path) if it cannot be written.
 void write_exr(const std::string& path, const ExrFile& file);
-/// Any scan-line or tiled single-part EXR, half, float or uint channels. Throws Error.
-ExrFile read_exr(const std::string& path);
+/// Any scan-line or tiled single-part EXR, half, float or uint channels; of its layers those named
+/// in `layers` that it has, or, with none named, all. In parallel. Throws Error.
+ExrFile read_exr(const std::string& path, const std::vector<std::string>& layers = {});
+/// The same without pixels: the planes are empty. Throws Error.
+ExrFile read_exr_header(const std::string& path);
 
 /// 8-bit PNG of display-referred values in [0, 1] (no colour conversion here; clamps, rounds).
 void write_png(const std::string& path, const Image& image);

@@ -16,6 +16,7 @@
 #include <limits>
 
 #include "core/image_io.h"
+#include "core/parallel.h"
 #include "core/rng.h"
 #include "tests/core/error_testing.h"
 #include "tests/temporary_folder.h"
@@ -85,6 +86,37 @@ TEST(Exr, KeepsEveryLayerBitForBit) {
       }
     }
   }
+}
+
+/// Blocks of lines are unpacked in parallel: more of them than one, and a rest.
+TEST(Exr, TallPicturesComeBackLineByLine) {
+  const TemporaryFolder folder;
+  ExrFile tall;
+  tall.width = 3;
+  tall.height = 1000;
+  tall.layers.push_back({"", {"Y"}, {std::vector<float>(3000)}});
+  for (std::size_t i = 0; i < 3000; ++i) tall.layers[0].planes[0][i] = static_cast<float>(i);
+  write_exr(folder / "tall.exr", tall);
+  for (const int threads : {1, 7}) {
+    const ThreadLimit limit(threads);
+    EXPECT_EQ(read_exr(folder / "tall.exr").layers[0].planes[0], tall.layers[0].planes[0]);
+  }
+}
+
+TEST(Exr, ReadsTheLayersAskedForOrTheHeaderAlone) {
+  const TemporaryFolder folder;
+  const ExrFile written = sample_file();
+  write_exr(folder / "a.exr", written);
+  const ExrFile some = read_exr(folder / "a.exr", {"", "depth", "nothing"});
+  ASSERT_EQ(some.layers.size(), 2u);
+  EXPECT_EQ(some.layers[1].name, "depth");
+  EXPECT_EQ(std::bit_cast<std::uint32_t>(some.layers[1].planes[0][20]),
+            std::bit_cast<std::uint32_t>(written.find("depth")->planes[0][20]));
+  const ExrFile header = read_exr_header(folder / "a.exr");
+  EXPECT_EQ(header.width, written.width);
+  EXPECT_EQ(header.layers.size(), written.layers.size());
+  EXPECT_TRUE(header.layers[0].planes.empty());
+  EXPECT_EQ(header.attributes.number.at("passes"), 12);
 }
 
 TEST(Exr, KeepsAttributes) {
