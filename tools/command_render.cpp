@@ -13,6 +13,7 @@
 #include "renderer/picture.h"
 #include "renderer/render.h"
 #include "tools/commands.h"
+#include "tools/display_arguments.h"
 #include "tools/picture_writer.h"
 #include "tools/progress.h"
 #include "tools/scene_arguments.h"
@@ -92,8 +93,8 @@ class RenderCommand final : public Command {
   std::string integrator_ = "photon";
   std::vector<Assignment> options_;
   std::vector<std::string> sets_;
-  std::string size_, threads_ = "0", exposure_ = "0", output_;
-  DisplayOptions display_;
+  std::string size_, threads_ = "0", output_;
+  DisplayArguments display_;
   bool quiet_ = false, no_png_ = false, split_ = false;
 };
 
@@ -153,13 +154,7 @@ void RenderCommand::add_picture_options() {
       ->type_name("WxH");
   verb_->add_flag("--split", split_, "Add the layers direct, caustic and indirect to the EXR");
   verb_->add_flag("--no-png", no_png_, "Write the EXR only");
-  verb_->add_option("--display", display_.display, "Display of the PNG")->type_name("NAME");
-  verb_->add_option("--view", display_.view, "View of the PNG")->type_name("NAME");
-  verb_->add_option("--exposure", exposure_, "Exposure of the PNG")
-      ->type_name("STOPS")
-      ->capture_default_str();
-  verb_->add_option("--ocio", display_.ocio_config, "OpenColorIO configuration for the PNG")
-      ->type_name("FILE");
+  display_.add_to(*verb_, "the PNG");
   verb_->add_flag("--quiet", quiet_, "Say nothing but errors");
 }
 
@@ -182,11 +177,10 @@ RenderConfig RenderCommand::config() const {
 }
 
 PictureWriter::Options RenderCommand::picture() const {
-  PictureWriter::Options options{output_, !no_png_, display_};
+  PictureWriter::Options options{output_, !no_png_, display_.options()};
   if (output_.empty()) {
     options.exr_path = std::filesystem::path(scene_.path).stem().string() + ".exr";
   }
-  options.display.exposure = static_cast<float>(parse_number("--exposure " + exposure_, exposure_));
   return options;
 }
 

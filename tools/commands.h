@@ -25,5 +25,6 @@ class Command {
 std::unique_ptr<Command> make_render_command(CLI::App& app, const std::string& command_line);
 std::unique_ptr<Command> make_info_command(CLI::App& app);
 std::unique_ptr<Command> make_lab_command(CLI::App& app);
+std::unique_ptr<Command> make_compare_command(CLI::App& app);
 
 }  // namespace octolux

@@ -1,0 +1,181 @@
+// `octolux compare`: images against a reference, in numbers (tools/compare/). With gates it is a
+// test: exit code 1 when a figure is beyond its limit.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <deque>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/file_io.h"
+#include "core/parallel.h"
+#include "tools/commands.h"
+#include "tools/compare/comparison.h"
+#include "tools/compare/gates.h"
+#include "tools/compare/report.h"
+#include "tools/display_arguments.h"
+#include "tools/settings.h"
+
+namespace octolux {
+namespace {
+
+constexpr int kGateClosed = 1;
+constexpr char kRoot[] = "root";
+
+constexpr char kFooter[] =
+    "x is an image, y the reference; means run over pixels and channels, both scene-linear. "
+    "Pixels\n"
+    "with a NaN or an infinity are counted and left out. A layer 'variance' gives bias^2 and a "
+    "test\n"
+    "of every value against its noise (Welch's t, Sidak's correction).\n\n"
+    "Exit codes: 0 done, 1 a gate failed, 2 bad input.";
+
+class CompareCommand final : public Command {
+ public:
+  explicit CompareCommand(CLI::App& app);
+  bool chosen() const override { return verb_->parsed(); }
+  int run() override;
+
+ private:
+  /// A gate as it was typed.
+  struct Limit {
+    const Figure* figure;
+    std::string text;
+  };
+
+  void add_gates();
+  std::vector<Gate> gates() const;
+  bool wants_flip() const;
+  std::vector<std::string> layers() const;
+  Mask mask(const LayerView& reference) const;
+  Comparison compare(const NamedPicture& reference, const std::vector<NamedPicture>& images,
+                     const std::vector<std::string>& layers) const;
+
+  CLI::App* verb_;
+  std::string reference_, mask_, rectangle_, json_, threads_ = "0";
+  std::vector<std::string> images_, layers_{kRoot};
+  std::deque<Limit> limits_;
+  DisplayArguments display_;
+  bool flip_ = false, within_noise_ = false;
+};
+
+CompareCommand::CompareCommand(CLI::App& app)
+    : verb_(app.add_subcommand("compare", "Measure images against a reference")) {
+  verb_->add_option("REFERENCE", reference_, "EXR (or HDR, PNG, ...)")->required();
+  verb_->add_option("IMAGE", images_, "Images to measure")->required();
+  verb_->add_option("--layer", layers_, "Layers to compare: root, names, or all both files have")
+      ->type_name("NAME")
+      ->capture_default_str();
+  verb_->add_option("--mask", mask_, "Only pixels where this picture is above 0")
+      ->type_name("FILE");
+  verb_->add_option("--rect", rectangle_, "Only pixels of this rectangle")->type_name("X,Y,WxH");
+  verb_->add_flag("--flip", flip_, "FLIP too: HDR, and LDR of what the view shows; takes seconds");
+  verb_->add_option("--json", json_, "Write every number to this file")->type_name("FILE");
+  display_.add_to(*verb_, "pictures");
+  verb_->add_option("--threads", threads_, "Threads; 0: all processors. Never changes a number")
+      ->type_name("N")
+      ->capture_default_str();
+  add_gates();
+  verb_->footer(kFooter);
+}
+
+void CompareCommand::add_gates() {
+  for (const Figure& figure : figures()) {
+    const std::string option = gate_option(figure);
+    if (option.empty()) continue;
+    Limit& limit = limits_.emplace_back(Limit{&figure, ""});
+    verb_->add_option(option, limit.text, std::string("Gate on ") + figure.title)
+        ->type_name("LIMIT")
+        ->group("Gates");
+  }
+  verb_->add_flag("--within-noise", within_noise_, "Gate: no value differs beyond its noise")
+      ->group("Gates");
+}
+
+std::vector<Gate> CompareCommand::gates() const {
+  std::vector<Gate> gates;
+  for (const Limit& limit : limits_) {
+    if (limit.text.empty()) continue;
+    const std::string source = gate_option(*limit.figure) + " " + limit.text;
+    gates.push_back({limit.figure, parse_number(source, limit.text)});
+  }
+  if (within_noise_) gates.push_back({});
+  return gates;
+}
+
+bool CompareCommand::wants_flip() const {
+  return flip_ || std::any_of(limits_.begin(), limits_.end(), [](const Limit& limit) {
+           return !limit.text.empty() &&
+                  std::string(limit.figure->key).find("flip") != std::string::npos;
+         });
+}
+
+std::vector<std::string> CompareCommand::layers() const {
+  if (layers_ == std::vector<std::string>{"all"}) return common_layers(reference_, images_);
+  std::vector<std::string> names = layers_;
+  std::replace(names.begin(), names.end(), std::string(kRoot), std::string());
+  return names;
+}
+
+Mask CompareCommand::mask(const LayerView& reference) const {
+  Mask mask;
+  if (!mask_.empty()) mask = mask_of(load_picture(mask_, {""}), reference);
+  if (rectangle_.empty()) return mask;
+  const std::string source = "--rect " + rectangle_;
+  mask = intersection(mask, mask_of(source, parse_rectangle(source, rectangle_), reference));
+  if (count_pixels(mask, mask.size()) == 0) {
+    throw Error(source + ": no pixel of it is in the mask " + mask_);
+  }
+  return mask;
+}
+
+Comparison CompareCommand::compare(const NamedPicture& reference,
+                                   const std::vector<NamedPicture>& images,
+                                   const std::vector<std::string>& layers) const {
+  const LayerView first = view_layer(reference, layers.front());
+  for (const NamedPicture& image : images) {
+    for (const std::string& layer : layers) {
+      check_comparable(view_layer(reference, layer), view_layer(image, layer));
+    }
+  }
+  CompareOptions options;
+  options.flip = wants_flip();
+  options.display = display_.options();
+  Comparison result = compare_pictures(reference, images, layers, mask(first), options);
+  if (!mask_.empty()) result.mask = "mask " + mask_;
+  if (!rectangle_.empty()) {
+    result.mask += (mask_.empty() ? "rectangle " : ", rectangle ") + rectangle_;
+  }
+  return result;
+}
+
+int CompareCommand::run() {
+  const std::vector<Gate> limits = gates();
+  const ThreadLimit threads(parse_int("--threads " + threads_, threads_, 0, 4096));
+  check_display(display_.options());
+  if (!json_.empty()) check_writable(json_);
+
+  const std::vector<std::string> names = layers();
+  if (names.empty()) throw Error(reference_ + ": has no layer in common with the images");
+  const NamedPicture reference = load_picture(reference_, names);
+  std::vector<NamedPicture> images;
+  for (const std::string& path : images_) images.push_back(load_picture(path, names));
+  const Comparison comparison = compare(reference, images, names);
+
+  const std::vector<GateResult> results = check_gates(comparison, limits);
+  fmt::print("{}", to_text(comparison));
+  for (const GateResult& result : results) fmt::print("gate: {}\n", result.line);
+  if (!json_.empty()) write_file(json_, to_json(comparison, results).dump(2) + "\n");
+  const bool passed =
+      std::all_of(results.begin(), results.end(), [](const GateResult& r) { return r.passed; });
+  return passed ? 0 : kGateClosed;
+}
+
+}  // namespace
+
+std::unique_ptr<Command> make_compare_command(CLI::App& app) {
+  return std::make_unique<CompareCommand>(app);
+}
+
+}  // namespace octolux
