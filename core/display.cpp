@@ -52,23 +52,34 @@ struct Target {
   std::string display, view;
 };
 
+DisplayMenu read_menu(const ocio::Config& config) {
+  DisplayMenu menu;
+  menu.default_display = config.getDefaultDisplay();
+  for (int i = 0; i < config.getNumDisplays(); ++i) {
+    const char* name = config.getDisplay(i);
+    DisplayMenu::Display display{name, {}, config.getDefaultView(name)};
+    for (int v = 0; v < config.getNumViews(name); ++v) {
+      display.views.push_back(config.getView(name, v));
+    }
+    menu.displays.push_back(std::move(display));
+  }
+  return menu;
+}
+
 Target find_target(const ocio::Config& config, const DisplayOptions& options) {
-  std::vector<std::string> displays, views;
-  for (int i = 0; i < config.getNumDisplays(); ++i) displays.push_back(config.getDisplay(i));
+  const DisplayMenu menu = read_menu(config);
   Target target{options.display, options.view};
-  if (target.display.empty()) target.display = config.getDefaultDisplay();
-  if (std::find(displays.begin(), displays.end(), target.display) == displays.end()) {
-    throw Error(unknown_name("display", target.display, displays));
-  }
-  const char* display = target.display.c_str();
-  for (int i = 0; i < config.getNumViews(display); ++i) {
-    views.push_back(config.getView(display, i));
-  }
-  if (target.view.empty()) target.view = config.getDefaultView(display);
-  if (std::find(views.begin(), views.end(), target.view) == views.end()) {
+  if (target.display.empty()) target.display = menu.default_display;
+  std::vector<std::string> names;
+  for (const DisplayMenu::Display& display : menu.displays) {
+    names.push_back(display.name);
+    if (display.name != target.display) continue;
+    const auto& views = display.views;
+    if (target.view.empty()) target.view = display.default_view;
+    if (std::find(views.begin(), views.end(), target.view) != views.end()) return target;
     throw Error("display '" + target.display + "': " + unknown_name("view", target.view, views));
   }
-  return target;
+  throw Error(unknown_name("display", target.display, names));
 }
 
 /// Rec.709 to ACES2065-1: the shipped configuration's own matrix.
@@ -135,5 +146,19 @@ Image to_display(const Image& linear, const DisplayOptions& options) {
 }
 
 void check_display(const DisplayOptions& options) { make_cpu_processor(options); }
+
+DisplayMenu display_menu(const DisplayOptions& options) {
+  DisplayMenu menu = read_menu(*load_config(options));
+  menu.config = config_path(options);
+  return menu;
+}
+
+DisplayOptions resolved(const DisplayOptions& options) {
+  const Target target = find_target(*load_config(options), options);
+  DisplayOptions result = options;
+  result.display = target.display;
+  result.view = target.view;
+  return result;
+}
 
 }  // namespace octolux

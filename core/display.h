@@ -9,6 +9,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/image.h"
 
@@ -30,6 +31,24 @@ Image to_display(const Image& linear, const DisplayOptions& options);
 /// Throws Error if the configuration cannot be read or has no such display or view (the legal ones
 /// are listed). Long work starts with this.
 void check_display(const DisplayOptions& options);
+
+/// What a configuration offers.
+struct DisplayMenu {
+  struct Display {
+    std::string name;
+    std::vector<std::string> views;
+    std::string default_view;
+  };
+  std::string config;  // its file; "": the shipped one
+  std::vector<Display> displays;
+  std::string default_display;
+};
+
+/// Of the configuration `options` choose. Throws Error if it cannot be read.
+DisplayMenu display_menu(const DisplayOptions& options);
+
+/// `options` with the names of display and view filled in. Throws Error as check_display.
+DisplayOptions resolved(const DisplayOptions& options);
 
 /// The text of the shipped configuration (display_config.cpp).
 const char* shipped_display_config();

@@ -1,10 +1,12 @@
 // `octolux info`: what was loaded, so that a scene that renders black can be told from one that was
-// read wrongly.
+// read wrongly; and the displays and views pictures can be shown through.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <map>
 
+#include "core/display.h"
+#include "core/error.h"
 #include "tools/commands.h"
 #include "tools/scene_arguments.h"
 
@@ -122,15 +124,38 @@ void print_camera(const Scene& scene) {
              scene.hide_emitters ? "; emitters are hidden from the camera" : "");
 }
 
+void print_displays(const DisplayMenu& menu) {
+  fmt::print("config     {}\n", menu.config.empty() ? "ours" : menu.config);
+  for (const DisplayMenu::Display& display : menu.displays) {
+    fmt::print("display    {}{}\n", display.name,
+               display.name == menu.default_display ? " (default)" : "");
+    for (const std::string& view : display.views) {
+      fmt::print("  view     {}{}\n", view, view == display.default_view ? " (default)" : "");
+    }
+  }
+}
+
 class InfoCommand final : public Command {
  public:
   explicit InfoCommand(CLI::App& app)
       : verb_(app.add_subcommand("info", "Print what a scene file holds")) {
     scene_.add_to(*verb_);
+    verb_->get_option("SCENE")->required(false);
+    ocio_ = verb_->add_option("--ocio", config_,
+                              "List the displays and views of this OpenColorIO configuration, "
+                              "or of $OCIO's, or of ours");
+    ocio_->type_name("[FILE]")->expected(0, 1);
   }
   bool chosen() const override { return verb_->parsed(); }
 
   int run() override {
+    if (ocio_->count() > 0) {
+      DisplayOptions options;
+      options.ocio_config = config_;
+      print_displays(display_menu(options));
+      if (scene_.path.empty()) return 0;
+    }
+    if (scene_.path.empty()) throw Error("SCENE is required");
     const std::unique_ptr<Scene> scene = scene_.load();
     fmt::print("scene      {} (hash {:016x})\n", scene_.path, scene->hash);
     print_geometry(*scene);
@@ -144,6 +169,8 @@ class InfoCommand final : public Command {
  private:
   CLI::App* verb_;
   SceneArguments scene_;
+  std::string config_;
+  CLI::Option* ocio_ = nullptr;
 };
 
 }  // namespace

@@ -146,6 +146,17 @@ TEST_F(Display, UnknownNamesListTheLegalOnes) {
   }
 }
 
+TEST_F(Display, MenuListsWhatTheConfigurationOffers) {
+  const DisplayMenu menu = display_menu({});
+  EXPECT_EQ(menu.config, "");
+  EXPECT_EQ(menu.default_display, "sRGB");
+  ASSERT_EQ(menu.displays.size(), 1u);
+  EXPECT_EQ(menu.displays[0].views, (std::vector<std::string>{"Standard", "ACES 1.0 SDR", "Raw"}));
+  EXPECT_EQ(menu.displays[0].default_view, "Standard");
+  EXPECT_EQ(resolved({}).display, "sRGB");
+  EXPECT_EQ(resolved({}).view, "Standard");
+}
+
 TEST_F(Display, BadConfigurationsAreNamed) {
   const test::TemporaryFolder folder;
   DisplayOptions options;
