@@ -1,5 +1,5 @@
 // PNG files and textures through stb_image and stb_image_write (image_io.h), as Debian's libstb.
-// The sole user of stb. EXR textures go to our own reader (exr_io.cpp).
+// The sole user of those two. EXR textures go to our own reader (exr_io.cpp).
 //
 // stb_image takes a file that ends early for one that goes on with zeros, or leaves pixels unset.
 // So it reads through callbacks that notice when it asks for more than there is. Thread-safe: stb

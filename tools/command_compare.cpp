@@ -14,6 +14,7 @@
 #include "tools/compare/comparison.h"
 #include "tools/compare/gates.h"
 #include "tools/compare/report.h"
+#include "tools/compare/sheets.h"
 #include "tools/display_arguments.h"
 #include "tools/settings.h"
 
@@ -51,9 +52,12 @@ class CompareCommand final : public Command {
   Mask mask(const LayerView& reference) const;
   Comparison compare(const NamedPicture& reference, const std::vector<NamedPicture>& images,
                      const std::vector<std::string>& layers) const;
+  void check_outputs() const;
+  void write_pictures(const Comparison& comparison, const ComparedViews& views) const;
 
   CLI::App* verb_;
-  std::string reference_, mask_, rectangle_, json_, threads_ = "0";
+  std::string reference_, mask_, rectangle_, threads_ = "0";
+  std::string json_, heat_map_, side_by_side_, range_;
   std::vector<std::string> images_, layers_{kRoot};
   std::deque<Limit> limits_;
   DisplayArguments display_;
@@ -72,6 +76,14 @@ CompareCommand::CompareCommand(CLI::App& app)
   verb_->add_option("--rect", rectangle_, "Only pixels of this rectangle")->type_name("X,Y,WxH");
   verb_->add_flag("--flip", flip_, "FLIP too: HDR, and LDR of what the view shows; takes seconds");
   verb_->add_option("--json", json_, "Write every number to this file")->type_name("FILE");
+  verb_->add_option("--side-by-side", side_by_side_, "Write labelled pictures of the first layer")
+      ->type_name("FILE.png");
+  verb_->add_option("--heat-map", heat_map_, "Write where images are too bright or too dark")
+      ->type_name("FILE.png");
+  verb_
+      ->add_option("--range", range_,
+                   "Largest relative difference a heat map tells apart, e.g. 0.1")
+      ->type_name("R");
   display_.add_to(*verb_, "pictures");
   verb_->add_option("--threads", threads_, "Threads; 0: all processors. Never changes a number")
       ->type_name("N")
@@ -150,11 +162,31 @@ Comparison CompareCommand::compare(const NamedPicture& reference,
   return result;
 }
 
+void CompareCommand::check_outputs() const {
+  check_display(display_.options());
+  for (const std::string& path : {json_, side_by_side_, heat_map_}) {
+    if (!path.empty()) check_writable(path);
+  }
+  if (!range_.empty() && !(parse_number("--range " + range_, range_) > 0)) {
+    throw Error("--range " + range_ + ": expected a number above 0");
+  }
+}
+
+void CompareCommand::write_pictures(const Comparison& comparison,
+                                    const ComparedViews& views) const {
+  if (!side_by_side_.empty()) {
+    write_png(side_by_side_, side_by_side_sheet(comparison, views, display_.options()));
+  }
+  if (heat_map_.empty()) return;
+  const double range = range_.empty() ? heat_map_range(relative_differences(views))
+                                      : parse_number("--range " + range_, range_);
+  write_png(heat_map_, heat_map_sheet(comparison, views, range));
+}
+
 int CompareCommand::run() {
   const std::vector<Gate> limits = gates();
   const ThreadLimit threads(parse_int("--threads " + threads_, threads_, 0, 4096));
-  check_display(display_.options());
-  if (!json_.empty()) check_writable(json_);
+  check_outputs();
 
   const std::vector<std::string> names = layers();
   if (names.empty()) throw Error(reference_ + ": has no layer in common with the images");
@@ -166,6 +198,9 @@ int CompareCommand::run() {
   const std::vector<GateResult> results = check_gates(comparison, limits);
   fmt::print("{}", to_text(comparison));
   for (const GateResult& result : results) fmt::print("gate: {}\n", result.line);
+  ComparedViews views{view_layer(reference, names.front()), {}};
+  for (const NamedPicture& image : images) views.images.push_back(view_layer(image, names.front()));
+  write_pictures(comparison, views);
   if (!json_.empty()) write_file(json_, to_json(comparison, results).dump(2) + "\n");
   const bool passed =
       std::all_of(results.begin(), results.end(), [](const GateResult& r) { return r.passed; });

@@ -7,6 +7,7 @@
 
 #include "tests/tools/pictures.h"
 #include "tests/tools/program.h"
+#include "tools/compare/colour_map.h"
 
 namespace octolux {
 namespace {
@@ -108,6 +109,33 @@ TEST_F(Compare, LayersAndMasksChooseWhatIsMeasured) {
   const Outcome all = run({"y.exr", "x.exr", "--layer", "all"});
   EXPECT_NE(all.out.find("layer 'albedo'"), std::string::npos) << all.out;
   EXPECT_NE(all.out.find("the root layer"), std::string::npos) << all.out;
+}
+
+TEST_F(Compare, WritesPicturesInTheWantedRange) {
+  write("y.exr", constant(40, 30, Rgb(0.5f)));
+  write("x.exr", constant(40, 30, Rgb(0.6f)));
+  const Outcome outcome =
+      run({"y.exr", "x.exr", "--side-by-side", "s.png", "--heat-map", "h.png", "--range", "0.1"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Image heat = read_image(folder_ / "h.png", Encoding::linear);
+  const Rgb end = ColourMap::diverging()(1);  // 0.1 / sqrt(0.26) is beyond 0.1
+  const auto pixels = std::count_if(heat.pixels.begin(), heat.pixels.end(), [&](Rgb p) {
+    return std::abs(p.r - end.r) + std::abs(p.g - end.g) + std::abs(p.b - end.b) < 1.5f / 255;
+  });
+  EXPECT_GE(pixels, 8 * 8 * 40 * 30);
+  EXPECT_GT(read_image(folder_ / "s.png", Encoding::linear).width, 640);
+  expect_refused({"y.exr", "x.exr", "--heat-map", "h.png", "--range", "0"}, "--range 0");
+  expect_refused({"y.exr", "x.exr", "--heat-map", "no/h.png"}, "no/h.png: ");
+}
+
+TEST_F(Compare, InfoListsDisplays) {
+  const Outcome outcome = run_program(folder_, {"info", "--ocio"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("display    sRGB (default)\n  view     Standard (default)\n"),
+            std::string::npos)
+      << outcome.out;
+  EXPECT_EQ(run_program(folder_, {"info", "--ocio", "none.ocio"}).exit_code, 2);
+  EXPECT_EQ(run_program(folder_, {"info"}).exit_code, 2);
 }
 
 TEST_F(Compare, BadInputIsOneLine) {

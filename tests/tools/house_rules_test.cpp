@@ -83,7 +83,8 @@ struct Owner {
 const std::vector<Owner> kOwners = {
     {"embree", {"accel/ray_caster.cpp"}},
     {"Imf", {"core/exr_io.cpp"}},
-    {"stb", {"core/stb_io.cpp"}},
+    {"stb_image", {"core/stb_io.cpp"}},
+    {"stb_easy_font", {"tools/compare/text.cpp"}},
     {"OpenColorIO", {"core/display.cpp"}},
     {"tbb/", {"core/parallel.cpp", "accel/"}},
     {"pugixml", {"renderer/"}},
