@@ -12,6 +12,7 @@
 #include "core/parallel.h"
 #include "tools/commands.h"
 #include "tools/compare/comparison.h"
+#include "tools/compare/comparison_page.h"
 #include "tools/compare/gates.h"
 #include "tools/compare/report.h"
 #include "tools/compare/sheets.h"
@@ -53,11 +54,12 @@ class CompareCommand final : public Command {
   Comparison compare(const NamedPicture& reference, const std::vector<NamedPicture>& images,
                      const std::vector<std::string>& layers) const;
   void check_outputs() const;
-  void write_pictures(const Comparison& comparison, const ComparedViews& views) const;
+  void write_results(const Comparison& comparison, const ComparedViews& views,
+                     const std::string& json) const;
 
   CLI::App* verb_;
   std::string reference_, mask_, rectangle_, threads_ = "0";
-  std::string json_, heat_map_, side_by_side_, range_;
+  std::string json_, heat_map_, side_by_side_, html_, range_;
   std::vector<std::string> images_, layers_{kRoot};
   std::deque<Limit> limits_;
   DisplayArguments display_;
@@ -84,6 +86,8 @@ CompareCommand::CompareCommand(CLI::App& app)
       ->add_option("--range", range_,
                    "Largest relative difference a heat map tells apart, e.g. 0.1")
       ->type_name("R");
+  verb_->add_option("--html", html_, "Write a page to look at them: wipe, blink, zoom, values")
+      ->type_name("FILE.html");
   display_.add_to(*verb_, "pictures");
   verb_->add_option("--threads", threads_, "Threads; 0: all processors. Never changes a number")
       ->type_name("N")
@@ -164,7 +168,7 @@ Comparison CompareCommand::compare(const NamedPicture& reference,
 
 void CompareCommand::check_outputs() const {
   check_display(display_.options());
-  for (const std::string& path : {json_, side_by_side_, heat_map_}) {
+  for (const std::string& path : {json_, side_by_side_, heat_map_, html_}) {
     if (!path.empty()) check_writable(path);
   }
   if (!range_.empty() && !(parse_number("--range " + range_, range_) > 0)) {
@@ -172,15 +176,19 @@ void CompareCommand::check_outputs() const {
   }
 }
 
-void CompareCommand::write_pictures(const Comparison& comparison,
-                                    const ComparedViews& views) const {
+void CompareCommand::write_results(const Comparison& comparison, const ComparedViews& views,
+                                   const std::string& json) const {
+  if (!json_.empty()) write_file(json_, json);
+  const DisplayOptions display = display_.options();
   if (!side_by_side_.empty()) {
-    write_png(side_by_side_, side_by_side_sheet(comparison, views, display_.options()));
+    write_png(side_by_side_, side_by_side_sheet(comparison, views, display));
   }
-  if (heat_map_.empty()) return;
+  if (heat_map_.empty() && html_.empty()) return;
   const double range = range_.empty() ? heat_map_range(relative_differences(views))
                                       : parse_number("--range " + range_, range_);
-  write_png(heat_map_, heat_map_sheet(comparison, views, range));
+  if (!heat_map_.empty()) write_png(heat_map_, heat_map_sheet(comparison, views, range));
+  if (html_.empty()) return;
+  write_file(html_, make_page(comparison_page(comparison, views, display, range, json)));
 }
 
 int CompareCommand::run() {
@@ -200,8 +208,7 @@ int CompareCommand::run() {
   for (const GateResult& result : results) fmt::print("gate: {}\n", result.line);
   ComparedViews views{view_layer(reference, names.front()), {}};
   for (const NamedPicture& image : images) views.images.push_back(view_layer(image, names.front()));
-  write_pictures(comparison, views);
-  if (!json_.empty()) write_file(json_, to_json(comparison, results).dump(2) + "\n");
+  write_results(comparison, views, to_json(comparison, results).dump(2) + "\n");
   const bool passed =
       std::all_of(results.begin(), results.end(), [](const GateResult& r) { return r.passed; });
   return passed ? 0 : kGateClosed;
