@@ -33,6 +33,30 @@ constexpr char kFooter[] =
     "of every value against its noise (Welch's t, Sidak's correction).\n\n"
     "Exit codes: 0 done, 1 a gate failed, 2 bad input.";
 
+/// Pictures that take more than this are announced.
+constexpr double kMuchMemory = 1e9;  // bytes
+
+/// What the pictures will take; 0 for those that are no EXR, and small.
+double bytes_of(const std::string& path, const std::vector<std::string>& layers) {
+  const std::optional<ExrFile> header = exr_header(path);
+  if (!header) return 0;
+  double channels = 1;  // errors per pixel
+  for (const Layer& layer : header->layers) {
+    const bool read = layer.name == "variance" ||
+                      std::find(layers.begin(), layers.end(), layer.name) != layers.end();
+    if (read) channels += static_cast<double>(layer.channels.size());
+  }
+  return sizeof(float) * channels * header->width * header->height;
+}
+
+void announce_memory(const std::vector<std::string>& paths,
+                     const std::vector<std::string>& layers) {
+  double bytes = 0;
+  for (const std::string& path : paths) bytes += bytes_of(path, layers);
+  if (bytes < kMuchMemory) return;
+  fmt::print(stderr, "octolux: the pictures take {:.1f} GB of memory\n", 1e-9 * bytes);
+}
+
 class CompareCommand final : public Command {
  public:
   explicit CompareCommand(CLI::App& app);
@@ -198,6 +222,9 @@ int CompareCommand::run() {
 
   const std::vector<std::string> names = layers();
   if (names.empty()) throw Error(reference_ + ": has no layer in common with the images");
+  std::vector<std::string> paths = images_;
+  paths.push_back(reference_);
+  announce_memory(paths, names);
   const NamedPicture reference = load_picture(reference_, names);
   std::vector<NamedPicture> images;
   for (const std::string& path : images_) images.push_back(load_picture(path, names));

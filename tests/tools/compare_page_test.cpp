@@ -48,7 +48,8 @@ TEST(Page, ViewsAreCurvesUnlessChannelsMix) {
   aces.view = "ACES 1.0 SDR";
   const auto cube = view_table(aces);
   EXPECT_EQ(cube["kind"], "cube");
-  EXPECT_EQ(cube["table"].get<std::string>().size(), 33u * 33 * 33 * 4);
+  EXPECT_EQ(cube["error"], 2);
+  EXPECT_EQ(cube["table"].get<std::string>().size(), 49u * 49 * 49 * 4);
 }
 
 std::string between(const std::string& text, const std::string& begin, const std::string& end) {

@@ -84,12 +84,18 @@ NamedPicture load_picture(const std::string& path, const std::vector<std::string
   return {path, {image.width, image.height, {rgb_layer("", image)}, {}}};
 }
 
+std::optional<ExrFile> exr_header(const std::string& path) {
+  if (!is_exr(path)) return std::nullopt;
+  return read_exr_header(path);
+}
+
 std::vector<std::string> common_layers(const std::string& reference,
                                        const std::vector<std::string>& others) {
   const auto layers_of = [](const std::string& path) {
+    const std::optional<ExrFile> header = exr_header(path);
+    if (!header) return std::vector<std::string>{""};
     std::vector<std::string> names;
-    if (!is_exr(path)) return std::vector<std::string>{""};
-    for (const Layer& layer : read_exr_header(path).layers) names.push_back(layer.name);
+    for (const Layer& layer : header->layers) names.push_back(layer.name);
     return names;
   };
   std::vector<std::string> common = layers_of(reference);

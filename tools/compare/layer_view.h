@@ -5,6 +5,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -40,6 +41,9 @@ std::string layer_title(const std::string& layer);
 /// Reads an EXR's `layers` (with the layer `variance`, if it has one), or another picture format as
 /// a root layer. Throws Error.
 NamedPicture load_picture(const std::string& path, const std::vector<std::string>& layers);
+
+/// An EXR's header (its layers have no pixels); empty for another format. Throws Error.
+std::optional<ExrFile> exr_header(const std::string& path);
 
 /// The layers of `reference` that every other picture has too, `variance` excepted. From headers
 /// only. Throws Error.

@@ -71,8 +71,8 @@ std::string encode_planes(const std::vector<std::vector<float>>& planes, int wid
 /// Bytes in base64 (RFC 4648).
 std::string base64(const std::string& bytes);
 
-/// The view as page.js reads it: {name, kind, size, offset, top, error, table}; `error` is how many
-/// 255ths what it shows may be from OpenColorIO.
+/// The view as page.js reads it: {name, kind, size, offset, top, error, table}; 99 % of colours
+/// are shown within `error` 255ths of OpenColorIO.
 nlohmann::ordered_json view_table(const DisplayOptions& display);
 
 }  // namespace octolux
