@@ -224,6 +224,7 @@ int CompareCommand::run() {
   if (names.empty()) throw Error(reference_ + ": has no layer in common with the images");
   std::vector<std::string> paths = images_;
   paths.push_back(reference_);
+  for (const std::string& path : paths) check_layers(path, names);
   announce_memory(paths, names);
   const NamedPicture reference = load_picture(reference_, names);
   std::vector<NamedPicture> images;

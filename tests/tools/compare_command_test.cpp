@@ -147,6 +147,9 @@ TEST_F(Compare, BadInputIsOneLine) {
   expect_refused({"y.exr", "small.exr"}, "small.exr: has 8x8 pixels; expected 16x8");
   expect_refused({"y.exr", "none.exr"}, "none.exr: ");
   expect_refused({"y.exr", "depth.exr"}, "depth.exr: has no channels in the root layer");
+  expect_refused({"y.exr", "y.exr", "--layer", "albdo"},
+                 "y.exr: has no channels in layer 'albdo'; there are: the root layer, layer "
+                 "'albedo'");
   expect_refused({"y.exr", "depth.exr", "--layer", "all"}, "no layer in common");
   expect_refused({"y.exr", "y.exr", "--max-relmse", "tiny"},
                  "--max-relmse tiny: expected a number");

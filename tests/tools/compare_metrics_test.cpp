@@ -114,6 +114,14 @@ TEST(CompareMetrics, ValuesThatAreNotFiniteAreCountedAndLeftOut) {
   EXPECT_DOUBLE_EQ(m.mse, (0.25 * (397 * 3 - 1) + 2.25) / (397 * 3));
 }
 
+TEST(CompareMetrics, WithoutAnyFinitePixelNothingIsKnown) {
+  const Metrics m = measure(constant(4, 4, Rgb(1)), constant(4, 4, Rgb(kNan)));
+  EXPECT_EQ(m.pixels, 0);
+  EXPECT_EQ(m.image.nan, 16);
+  EXPECT_TRUE(std::isnan(m.rel_mse));
+  EXPECT_TRUE(std::isnan(m.trimmed_rel_mse));
+}
+
 TEST(CompareMetrics, OnlyPixelsOfTheMaskCount) {
   const Image y = constant(20, 10, Rgb(1));
   const Image x = test::paint(20, 10, [](int column, int) { return Rgb(column < 5 ? 2.f : kNan); });

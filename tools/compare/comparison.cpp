@@ -1,6 +1,8 @@
 // comparison.h.
 #include "tools/compare/comparison.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "core/parallel.h"
@@ -122,6 +124,10 @@ Image image_of(const LayerView& view) {
         }
       });
   return image;
+}
+
+std::string number_text(double value, int digits) {
+  return std::isnan(value) ? "nan" : fmt::format("{:.{}g}", value, digits);
 }
 
 std::span<const Figure> figures() { return kFigures; }

@@ -73,6 +73,9 @@ struct Figure {
   std::optional<double> (*value)(const LayerComparison&);  // empty: not known
 };
 
+/// `value` with so many digits; NaN, whose sign means nothing, without one.
+std::string number_text(double value, int digits);
+
 /// Every figure of a comparison, in the order of reports.
 std::span<const Figure> figures();
 

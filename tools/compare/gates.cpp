@@ -40,8 +40,8 @@ GateResult check_figure(const ImageComparison& image, const LayerComparison& lay
   const bool smaller = figure.better == Better::smaller;
   const bool passed = smaller ? *value <= gate.limit : *value >= gate.limit;  // NaN fails
   return {image.image, layer.layer, option, passed,
-          fmt::format("{}: {} {:.6g}, {} {:.6g} {}", place_of(image, layer), figure.title, *value,
-                      smaller ? "at most" : "at least", gate.limit,
+          fmt::format("{}: {} {}, {} {:.6g} {}", place_of(image, layer), figure.title,
+                      number_text(*value, 6), smaller ? "at most" : "at least", gate.limit,
                       passed ? "wanted" : "wanted: FAILED")};
 }
 

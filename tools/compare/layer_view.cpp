@@ -58,6 +58,11 @@ std::string names_of(const std::vector<Layer>& layers) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+[[noreturn]] void fail_without(const NamedPicture& picture, const std::string& layer) {
+  throw Error(fmt::format("{}: has no channels in {}; there are: {}", picture.name,
+                          layer_title(layer), names_of(picture.file.layers)));
+}
+
 void add_variance(LayerView& view, const ExrFile& file) {
   const Layer* variance = file.find(kVariance);
   if (!variance || !has_all(*variance, view.channels)) return;
@@ -89,6 +94,14 @@ std::optional<ExrFile> exr_header(const std::string& path) {
   return read_exr_header(path);
 }
 
+void check_layers(const std::string& path, const std::vector<std::string>& layers) {
+  const std::optional<ExrFile> header = exr_header(path);
+  const NamedPicture picture{path, header ? *header : ExrFile{0, 0, {{"", kRgb, {}}}, {}}};
+  for (const std::string& layer : layers) {
+    if (!picture.file.find(layer)) fail_without(picture, layer);
+  }
+}
+
 std::vector<std::string> common_layers(const std::string& reference,
                                        const std::vector<std::string>& others) {
   const auto layers_of = [](const std::string& path) {
@@ -112,10 +125,7 @@ std::vector<std::string> common_layers(const std::string& reference,
 LayerView view_layer(const NamedPicture& picture, const std::string& layer) {
   const ExrFile& file = picture.file;
   const Layer* found = file.find(layer);
-  if (!found) {
-    throw Error(fmt::format("{}: has no channels in {}; there are: {}", picture.name,
-                            layer_title(layer), names_of(file.layers)));
-  }
+  if (!found) fail_without(picture, layer);
   const std::vector<std::string> channels = compared_channels(*found);
   if (channels.empty()) {
     throw Error(fmt::format("{}: {} has alpha only; expected R, G and B, or Y", picture.name,

@@ -45,6 +45,9 @@ NamedPicture load_picture(const std::string& path, const std::vector<std::string
 /// An EXR's header (its layers have no pixels); empty for another format. Throws Error.
 std::optional<ExrFile> exr_header(const std::string& path);
 
+/// Throws Error unless the picture has all of `layers`, by its header.
+void check_layers(const std::string& path, const std::vector<std::string>& layers);
+
 /// The layers of `reference` that every other picture has too, `variance` excepted. From headers
 /// only. Throws Error.
 std::vector<std::string> common_layers(const std::string& reference,

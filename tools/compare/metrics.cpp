@@ -116,7 +116,8 @@ NoiseSplit split_noise(const Pair& pair, const Sums& sums, double mse, double va
   split.reference_known = !pair.reference.variance.empty();
   split.variance_image = sums.variance_image / values;
   split.variance_reference = sums.variance_reference / values;
-  split.bias2 = std::max(0.0, mse - split.variance_image - split.variance_reference);
+  const double rest = mse - split.variance_image - split.variance_reference;
+  split.bias2 = rest < 0 ? 0 : rest;  // NaN stays
   return split;
 }
 

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace octolux {
@@ -39,7 +38,7 @@ std::string table(const Comparison& c, std::size_t layer) {
     bool any = false;
     for (const ImageComparison& image : c.images) {
       const std::optional<double> value = figure.value(image.layers[layer]);
-      row += value ? fmt::format("{:>12.5g}", *value) : fmt::format("{:>12}", "-");
+      row += value ? fmt::format("{:>12}", number_text(*value, 5)) : fmt::format("{:>12}", "-");
       any |= value.has_value();
     }
     if (any) text += row + "   " + figure.formula + "\n";
