@@ -23,15 +23,20 @@ class RadianceMap {
     return empty() ? Rgb(0) : estimator_->estimate(at, photons_, bandwidth_).radiance;
   }
 
-  /// Bandwidth [m] of a look-up of `neighbours` photons at the point.
-  float bandwidth(const GatherPoint& at, int neighbours) const {
+  /// The `neighbours` photons nearest to the point, and the bandwidth [m] of their look-up.
+  struct Neighbourhood {
+    std::span<const Neighbour> photons;
+    float bandwidth = 0;
+  };
+  /// The photons are in memory of this thread that the next call overwrites.
+  Neighbourhood neighbourhood(const GatherPoint& at, int neighbours) const {
     thread_local NeighbourBuffer buffer;
     const auto wanted = static_cast<std::size_t>(neighbours) + 1;
     const std::span<const Neighbour> found =
         photons_.nearest(photon_query(at, bandwidth_), wanted, buffer);
-    const float radius =
-        found.size() == wanted ? std::sqrt(found.back().distance2) : bandwidth_.max_radius;
-    return radius * bandwidth_.shrink;
+    const bool full = found.size() == wanted;
+    const float radius = full ? std::sqrt(found.back().distance2) : bandwidth_.max_radius;
+    return {found, radius * bandwidth_.shrink};
   }
 
  private:

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/sampling.h"
+#include "renderer/gather_guide.h"
 #include "renderer/roulette.h"
 
 namespace octolux {
@@ -50,26 +50,21 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
   if (maps_.caustics_mapped) out.caustic = maps_.caustic.radiance(point);
 
   Level next = level;
+  GatherGuide guide;
   if (next.read_distance < 0) {
-    next.read_distance = static_cast<float>(config_.eye.retrace) *
-                         maps_.global.bandwidth(point, config_.estimator.neighbours);
+    const auto [photons, bandwidth] =
+        maps_.global.neighbourhood(point, config_.estimator.neighbours);
+    next.read_distance = static_cast<float>(config_.eye.retrace) * bandwidth;
+    guide = GatherGuide(maps_.global.photons(), photons);
   }
-  const Vec2 shift = tracer.rng.uniform2();
-  const auto n = static_cast<std::uint32_t>(level.rays);
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const Vec2 u = shifted_hammersley(i, n, shift);
-    out.indirect += gather_ray(tracer, at, next, u) / static_cast<float>(n);
+  const GatherDirections directions(at, guide, level.rays, tracer.rng);
+  for (int i = 0; i < level.rays; ++i) {
+    const std::optional<GatherDirection> chosen = directions.draw(i, tracer.rng);
+    if (!chosen) continue;
+    const Arrival arrival{at.point().position, chosen->bsdf_pdf_w, level.rays, light_samples_};
+    out.indirect += chosen->weight * follow(tracer, at.spawn(chosen->wi), next, arrival);
   }
   return out;
-}
-
-Rgb FinalGather::gather_ray(Tracer& tracer, const Scattering& at, const Level& level,
-                            Vec2 u) const {
-  const float u_lobe = tracer.rng.uniform();
-  const std::optional<BsdfSample> sample = at.sample(u_lobe, u, Lobes::smooth);
-  if (!sample || is_black(sample->weight)) return Rgb(0);
-  const Arrival arrival{at.point().position, sample->pdf_w, level.rays, light_samples_};
-  return sample->weight * follow(tracer, at.spawn(sample->wi), level, arrival);
 }
 
 /// Radiance arriving along `ray`, through specular lobes S*, from the first smooth lobes met, and

@@ -40,7 +40,6 @@ class FinalGather {
     int retraces;         // how often this path has gone on
   };
   SplitRadiance radiance(Tracer& tracer, const Scattering& at, const Level& level) const;
-  Rgb gather_ray(Tracer& tracer, const Scattering& at, const Level& level, Vec2 u) const;
   Rgb follow(Tracer& tracer, Ray ray, const Level& level, Arrival arrival) const;
   GatherPoint gather_point(Tracer& tracer, const Scattering& at, int segments) const;
   int remaining(int segments) const;

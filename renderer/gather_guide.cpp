@@ -1,0 +1,116 @@
+// gather_guide.h.
+#include "renderer/gather_guide.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/constants.h"
+#include "core/frame.h"
+#include "core/sampling.h"
+
+namespace octolux {
+
+namespace {
+
+// A lobe's density is (1 + 2k) / (4 pi (1 + k t)^2), t = 1 - cos of the angle to its axis: a
+// quarter of its peak at t = 1 / k. Limits of k: 26 and 2.6 degrees there.
+constexpr float kMinSharpness = 10;
+constexpr float kMaxSharpness = 1000;
+
+/// t of a lobe of sharpness k; the inverse of u = t (1 + 2k) / (2 (1 + k t)).
+float sample_lobe(float u, float k) { return 2 * u / (1 + 2 * k * (1 - u)); }
+
+}  // namespace
+
+GatherGuide::GatherGuide(const PhotonMap& map, std::span<const Neighbour> photons) {
+  const std::size_t stride = (photons.size() + kMaxLobes - 1) / kMaxLobes;
+  float total = 0;
+  for (std::size_t i = 0; i < photons.size(); i += stride) {
+    const PhotonPayload& payload = map.payload(photons[i].photon);
+    const float flux = luminance(unpack_flux(payload.flux));
+    if (segments(payload) < 2 || !(flux > 0)) continue;
+    const Vec3 axis = wi(payload);
+    x_[count_] = axis.x;
+    y_[count_] = axis.y;
+    z_[count_] = axis.z;
+    share_[count_++] = flux;
+    total += flux;
+  }
+  for (std::size_t i = 0; i < count_; ++i) share_[i] /= total;
+  fit_widths();
+}
+
+/// A lobe reaches to the second nearest of the other axes.
+void GatherGuide::fit_widths() {
+  for (std::size_t i = 0; i < count_; ++i) {
+    float nearest = 2;
+    float second = 2;
+    for (std::size_t j = 0; j < count_; ++j) {
+      const float cosine = x_[i] * x_[j] + y_[i] * y_[j] + z_[i] * z_[j];
+      const float t = i == j ? 2.0f : 1 - cosine;
+      second = std::min(second, std::max(nearest, t));
+      nearest = std::min(nearest, t);
+    }
+    const float k =
+        std::clamp(1 / std::max(second, 1 / kMaxSharpness), kMinSharpness, kMaxSharpness);
+    sharpness_[i] = k;
+    peak_[i] = share_[i] * (1 + 2 * k) / (4 * kPi);
+  }
+}
+
+float GatherGuide::pdf_w(Vec3 wi) const {
+  float sum = 0;
+  for (std::size_t i = 0; i < count_; ++i) {
+    const float cosine = x_[i] * wi.x + y_[i] * wi.y + z_[i] * wi.z;
+    const float width = 1 + sharpness_[i] * (1 - cosine);
+    sum += peak_[i] / (width * width);
+  }
+  return sum;
+}
+
+Vec3 GatherGuide::sample(Vec2 u) const {
+  std::size_t i = 0;
+  for (; i + 1 < count_ && u.x >= share_[i]; ++i) u.x -= share_[i];
+  const float t = sample_lobe(std::clamp(u.x / share_[i], 0.0f, kOneMinusEpsilon), sharpness_[i]);
+  const float sine = std::sqrt(std::max(0.0f, t * (2 - t)));
+  const float phi = 2 * kPi * u.y;
+  const Vec3 local{sine * std::cos(phi), sine * std::sin(phi), 1 - t};
+  return Frame::from_normal({x_[i], y_[i], z_[i]}).to_world(local);
+}
+
+GatherDirections::GatherDirections(const Scattering& at, const GatherGuide& guide, int rays,
+                                   Rng& rng)
+    : at_(at),
+      guide_(guide),
+      guided_(guide.empty() ? 0 : rays / 2),
+      unguided_(rays - guided_),
+      shift_(rng.uniform2()) {}
+
+std::optional<GatherDirection> GatherDirections::draw(int i, Rng& rng) const {
+  const auto point = [&](int j, int n) {
+    return shifted_hammersley(static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(n), shift_);
+  };
+  if (i >= unguided_) return by_guide(point(i - unguided_, guided_));
+  const float u_lobe = rng.uniform();
+  return by_bsdf(u_lobe, point(i, unguided_));
+}
+
+std::optional<GatherDirection> GatherDirections::by_bsdf(float u_lobe, Vec2 u) const {
+  const std::optional<BsdfSample> s = at_.sample(u_lobe, u, Lobes::smooth);
+  if (!s || is_black(s->weight)) return std::nullopt;
+  float rays = static_cast<float>(unguided_);
+  if (guided_ > 0) rays += static_cast<float>(guided_) * guide_.pdf_w(s->wi) / s->pdf_w;
+  return GatherDirection{s->wi, s->weight / rays, s->pdf_w};
+}
+
+std::optional<GatherDirection> GatherDirections::by_guide(Vec2 u) const {
+  const Vec3 wi = guide_.sample(u);
+  const Rgb f_cos = at_.f_cos(wi, Lobes::smooth);
+  if (is_black(f_cos)) return std::nullopt;
+  const float pdf_w = at_.pdf_w(wi, Lobes::smooth);
+  const float density =
+      static_cast<float>(unguided_) * pdf_w + static_cast<float>(guided_) * guide_.pdf_w(wi);
+  return GatherDirection{wi, f_cos / density, pdf_w};
+}
+
+}  // namespace octolux
