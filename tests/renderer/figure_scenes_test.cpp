@@ -65,7 +65,7 @@ TEST(FigureScenes, WallAndCorner) {
   const Place corner{{-1.98f, 0, -1.98f}, {0.2f, 0.5f, 0.2f}, 0.45};
   for (const Place& at : {wall, corner}) {
     const auto estimate = [&](const char* kernel) {
-      return seen(*scene, at.spot, at.above, map_config(kernel, 30'000, 100));
+      return seen(*scene, at.spot, at.above, map_config(kernel, 30'000, 100, 16));
     };
     const Running truth = seen(*scene, at.spot, at.above, path_config(256));
     const Running octobox = estimate("octobox");
