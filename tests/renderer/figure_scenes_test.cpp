@@ -55,24 +55,21 @@ double tolerance(double own_bias, const Running& estimate, const Running& region
          4 * std::sqrt(variance + truth.variance_of_mean());
 }
 
-TEST(FigureScenes, WallAndCorner) {
+/// `share`: of the light at the spot that a disc can find there, and a little more.
+void expect_shadow_leak(Vec3 spot, Vec3 above, double share) {
   const auto scene = shipped_scene("wall-and-corner/wall-and-corner.xml");
-  struct Place {
-    Vec3 spot, above;
-    double share;  // of the light that a disc can find, and a little more
+  const auto estimate = [&](const char* kernel) {
+    return seen(*scene, spot, above, map_config(kernel, 30'000, 100, 16));
   };
-  const Place wall{{0, 0, -1.98f}, {0, 0.5f, 0.2f}, 0.75};
-  const Place corner{{-1.98f, 0, -1.98f}, {0.2f, 0.5f, 0.2f}, 0.45};
-  for (const Place& at : {wall, corner}) {
-    const auto estimate = [&](const char* kernel) {
-      return seen(*scene, at.spot, at.above, map_config(kernel, 30'000, 100, 16));
-    };
-    const Running truth = seen(*scene, at.spot, at.above, path_config(256));
-    const Running octobox = estimate("octobox");
-    EXPECT_TRUE(below(estimate("cone"), at.share, truth));
-    EXPECT_NEAR(octobox.mean(), truth.mean(), tolerance(0.027, octobox, estimate("region"), truth));
-  }
+  const Running truth = seen(*scene, spot, above, path_config(256));
+  const Running octobox = estimate("octobox");
+  EXPECT_TRUE(below(estimate("cone"), share, truth));
+  EXPECT_NEAR(octobox.mean(), truth.mean(), tolerance(0.027, octobox, estimate("region"), truth));
 }
+
+TEST(FigureScenes, Wall) { expect_shadow_leak({0, 0, -1.98f}, {0, 0.5f, 0.2f}, 0.75); }
+
+TEST(FigureScenes, Corner) { expect_shadow_leak({-1.98f, 0, -1.98f}, {0.2f, 0.5f, 0.2f}, 0.45); }
 
 TEST(FigureScenes, ThinWall) {
   for (const char* thickness : {"0.02", "0.001"}) {
