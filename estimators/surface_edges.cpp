@@ -2,9 +2,10 @@
 //
 // Probe rays look down. The triangle they find says exactly where its edges are, so a search mostly
 // needs two probes: one just behind the edge of the query's own triangle, one behind the next one's
-// (the quad's diagonal). Where triangles are much smaller than the feeler is long, the feeler's far
-// end is probed first, and only if nothing is there the edge is searched by halving, with a look
-// behind the nearest triangle's edge every other time.
+// (the quad's diagonal). Where triangles go on after these and are much smaller than the feeler is
+// long, the feeler's far end is probed next, and only if nothing is there the edge is searched by
+// halving, with a look behind the nearest triangle's edge every other time. (The far end alone says
+// little: it may lie on the next table, as high as this one.)
 //
 // A probe accepts a surface whose normal agrees and whose depth z fits its slope: on the query's
 // own plane z = 0; any surface that bends away from it by the angle phi on the way r is within
@@ -18,18 +19,25 @@ namespace octolux {
 
 namespace {
 
-constexpr int kMaxProbes = 12;
-constexpr float kSmall = 0.25f;  // a triangle that ends before this part of a feeler is small
+constexpr int kMaxProbes = 14;
+/// A triangle is small if it ends before this part of a feeler and is nowhere wider, either.
+constexpr float kSmall = 0.25f;
+constexpr int kHops =
+    2;  // looks behind edges of small triangles: that of a quad's half, its other's
 
 /// Where a feeler leaves a triangle.
 struct Exit {
   float at = -1;  // [m]; below 0: not known
   HalfPlane line;
+  float width = 0;  // [m] of the triangle
 };
 
 /// A triangle in the tangent plane: its inside is that of three half planes. Not those of the
 /// query: c < 0 where the query is outside.
-using Sides = std::array<HalfPlane, 3>;
+struct Sides {
+  std::array<HalfPlane, 3> lines;
+  float width = 0;  // [m] least altitude
+};
 
 std::optional<Sides> sides_of(const RayCaster& caster, const TangentPlane& plane,
                               std::uint32_t shape, std::uint32_t primitive) {
@@ -37,23 +45,28 @@ std::optional<Sides> sides_of(const RayCaster& caster, const TangentPlane& plane
   if (!triangle) return std::nullopt;
   std::array<Vec2, 3> p;
   for (int i = 0; i < 3; ++i) p[i] = plane.project((*triangle)[i]);
-  if (cross(p[1] - p[0], p[2] - p[0]) < 0) std::swap(p[1], p[2]);
+  float area2 = cross(p[1] - p[0], p[2] - p[0]);
+  if (area2 < 0) std::swap(p[1], p[2]);
+  area2 = std::abs(area2);
   Sides sides;
+  float longest = 0;
   for (int i = 0; i < 3; ++i) {
     const Vec2 edge = p[(i + 1) % 3] - p[i];
     const float size = length(edge);
     const Vec2 a = Vec2{edge.y, -edge.x} * (size > 0 ? 1 / size : 0);
-    sides[i] = {a, dot(a, p[i])};
+    sides.lines[i] = {a, dot(a, p[i])};
+    longest = std::max(longest, size);
   }
+  if (longest > 0) sides.width = area2 / longest;
   return sides;
 }
 
 Exit exit_of(const Sides& sides, Vec2 direction) {
-  Exit exit{kInfinity, {}};
-  for (const HalfPlane& side : sides) {
+  Exit exit{kInfinity, {}, sides.width};
+  for (const HalfPlane& side : sides.lines) {
     const float slope = dot(side.a, direction);
     const float c = std::max(side.c, 0.0f);
-    if (slope > 0 && c < exit.at * slope) exit = {c / slope, {side.a, c}};
+    if (slope > 0 && c < exit.at * slope) exit = {c / slope, {side.a, c}, sides.width};
   }
   return exit;
 }
@@ -63,7 +76,7 @@ std::optional<Sides> own_triangle(const RayCaster& caster, const FeelerQuery& qu
                                   const TangentPlane& plane) {
   const auto sides = sides_of(caster, plane, query.point.shape, query.point.primitive);
   if (!sides) return std::nullopt;
-  for (const HalfPlane& side : *sides) {
+  for (const HalfPlane& side : sides->lines) {
     if (!(side.c >= -plane.lift)) return std::nullopt;
   }
   const Vec3 corner = (*caster.triangle(query.point.shape, query.point.primitive))[0];
@@ -132,8 +145,9 @@ class Search {
     const bool leaves = known && exit_.at + tolerance_ < hi_;
     if (!missing_) {
       done_ = known && !leaves;
-      const bool near = leaves && exit_.at >= kSmall * hi_;
-      kind_ = near ? Kind::behind_exit : Kind::far_end;
+      const bool large = std::max(exit_.at, exit_.width) >= kSmall * hi_;
+      const bool hop = leaves && (large || hops_++ < kHops);
+      kind_ = hop ? Kind::behind_exit : Kind::far_end;
     } else {
       done_ = hi_ - lo_ <= tolerance_;
       exact_ = known && !leaves;
@@ -149,6 +163,7 @@ class Search {
   float lo_ = 0, hi_ = 0, tolerance_ = 0, probe_ = 0;
   Exit exit_;
   Kind kind_ = Kind::far_end;
+  int hops_ = 0;
   bool missing_ = false, exact_ = false, done_ = true;
 };
 

@@ -17,6 +17,22 @@ TEST(FreeRegion, TableTopsOverAFloor) {
   EXPECT_GT(out.share, 0.95);
 }
 
+// Feelers end on the next table, as high as this one: what is between must not count.
+TEST(FreeRegion, GapsBetweenTablesOfOneHeight) {
+  for (const float size : {0.3f, 2.0f}) {
+    Room room;
+    add_floor(room, -0.7f);
+    room.box(-size, 0, 0, size, -0.02f, 0);
+    room.box(0.5f, -2, 2, 2, -0.02f, 0);
+    room.box(-2, -2, 0.1f, -0.2f, -0.02f, 0);
+    const Outcome out = outcome(room, anywhere({-0.28f, 0.02f}, {-0.02f, 0.28f}), [&](Vec2 p) {
+      return p.x > -size && p.x < 0 && p.y > 0 && p.y < size;
+    });
+    EXPECT_LE(out.worst_excess, kOnTheLine) << size;
+    EXPECT_GT(out.share, 0.9) << size;
+  }
+}
+
 TEST(FreeRegion, TessellatedSheets) {
   constexpr int kTiles = 20;
   Room room;
