@@ -224,6 +224,15 @@ SurfacePoint RayCaster::surface(const RayHit& hit) const {
   return point;
 }
 
+void RayCaster::add_tangents(const RayHit& hit, SurfacePoint& point) const {
+  const auto& geometry = impl_->shapes[hit.shape].geometry;
+  const auto* mesh = std::get_if<TriangleMesh>(&geometry);
+  const Tangents t = mesh ? tangents(*mesh, hit.primitive)
+                          : tangents(std::get<Quadric>(geometry), hit.object_position);
+  point.dp_du = t.dp_du;
+  point.dp_dv = t.dp_dv;
+}
+
 Bounds RayCaster::bounds() const { return impl_->bounds; }
 
 }  // namespace octolux

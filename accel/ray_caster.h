@@ -58,6 +58,8 @@ class RayCaster {
   std::optional<std::array<Vec3, 3>> triangle(std::uint32_t shape, std::uint32_t primitive) const;
   /// The surface at a hit.
   SurfacePoint surface(const RayHit& hit) const;
+  /// Sets dp_du and dp_dv of what `surface` returned.
+  void add_tangents(const RayHit& hit, SurfacePoint& point) const;
 
   Bounds bounds() const;
 

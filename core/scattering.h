@@ -21,7 +21,7 @@ class Scattering {
   Scattering(const SurfacePoint& point, const Bsdf& bsdf, Vec3 wo, Carried carried)
       : point_(point),
         bsdf_(bsdf),
-        frame_(Frame::from_normal(point.ns)),
+        frame_(Frame::from_tangent(point.ns, point.dp_du)),
         wo_(wo),
         wo_local_(frame_.to_local(wo)),
         wo_ng_(dot(wo, point.ng)),

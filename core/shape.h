@@ -18,10 +18,11 @@ namespace octolux {
 /// A point on a surface, ready for shading.
 struct SurfacePoint {
   Vec3 position;
-  Vec3 ng;          // geometric normal, unit, on the front side of the surface
-  Vec3 ns;          // shading normal, unit, dot(ng, ns) >= 0
-  Vec2 uv;          // texture coordinates
-  float error = 0;  // [m] bound on the error of `position`
+  Vec3 ng;            // geometric normal, unit, on the front side of the surface
+  Vec3 ns;            // shading normal, unit, dot(ng, ns) >= 0
+  Vec2 uv;            // texture coordinates
+  Vec3 dp_du, dp_dv;  // [m] change of position with uv; 0 unless asked for (see tangents)
+  float error = 0;    // [m] bound on the error of `position`
   std::uint32_t shape = 0;
   std::uint32_t primitive = 0;
 };
@@ -79,6 +80,15 @@ SurfacePoint surface_point(const TriangleMesh& mesh, std::uint32_t primitive, fl
 
 /// The point of the quadric at `object_position` (on the unit shape).
 SurfacePoint surface_point(const Quadric& quadric, Vec3 object_position);
+
+/// How the position changes with uv [m].
+struct Tangents {
+  Vec3 dp_du, dp_dv;
+};
+/// Of a triangle; without texture coordinates any two directions in its plane, unit and orthogonal.
+Tangents tangents(const TriangleMesh& mesh, std::uint32_t primitive);
+/// Of a quadric at `object_position` (on the unit shape).
+Tangents tangents(const Quadric& quadric, Vec3 object_position);
 
 Bounds bounds(const Shape& shape);
 /// Area [m^2]: exact for meshes; for quadrics by quadrature, relative error below 1e-4.

@@ -18,6 +18,9 @@ class CheckerboardTexture final : public Texture {
   }
 
   Rgb mean() const override { return (color0_ + color1_) * 0.5f; }
+  float maximum() const override {
+    return std::max(max_component(color0_), max_component(color1_));
+  }
 
  private:
   static bool upper_half(float x) { return x - std::floor(x) > 0.5f; }

@@ -47,8 +47,28 @@ const Texture& SceneBuilder::texture(const XmlNode& object) {
 
 Color SceneBuilder::color(Properties& properties, const std::string& name, float fallback) {
   const XmlNode* node = properties.find(name);
-  if (node && node->object().tag == "texture") return Color(texture(node->object()));
+  if (node && node->object().tag == "texture") {
+    return Color(reflectance_texture(node->object(), properties.where(name)));
+  }
   return constant_color(properties, name, fallback);
+}
+
+const Texture& SceneBuilder::reflectance_texture(const XmlNode& object, const Location& where) {
+  const Texture& plain = texture(object);
+  if (plain.maximum() <= 1) return plain;
+  const Texture*& clamped = clamped_[&plain];
+  if (!clamped) {
+    warn(where, "the texture has values above 1; clamped");
+    scene_.textures.push_back(make_clamped_texture(plain));
+    clamped = scene_.textures.back().get();
+  }
+  return *clamped;
+}
+
+Scalar SceneBuilder::scalar(Properties& properties, const std::string& name, float fallback) {
+  const XmlNode* node = properties.find(name);
+  if (node && node->object().tag == "texture") return Scalar(texture(node->object()));
+  return properties.number(name).value_or(fallback);
 }
 
 Rgb SceneBuilder::constant_color(Properties& properties, const std::string& name, float fallback) {

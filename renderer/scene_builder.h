@@ -30,6 +30,9 @@ class SceneBuilder {
   /// The same where a texture is not modelled.
   Rgb constant_color(Properties& properties, const std::string& name, float fallback);
 
+  /// A number that a texture may give.
+  Scalar scalar(Properties& properties, const std::string& name, float fallback);
+
   /// Path of the file that the string parameter `name` (required) gives; part of the hash.
   std::string file(Properties& properties, const std::string& name);
 
@@ -38,9 +41,12 @@ class SceneBuilder {
 
  private:
   const XmlDocument& document_;
+  const Texture& reflectance_texture(const XmlNode& object, const Location& where);
+
   Scene& scene_;
   std::map<const XmlNode*, int> bsdfs_;
   std::map<const XmlNode*, const Texture*> textures_;
+  std::map<const Texture*, const Texture*> clamped_;
   std::set<std::string> hashed_files_;
   int default_bsdf_ = -1;
 };

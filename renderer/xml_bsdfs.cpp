@@ -1,4 +1,6 @@
 // <bsdf>: names, parameters and defaults of Mitsuba's surface plug-ins that we model.
+#include "renderer/xml_bsdfs.h"
+
 #include <memory>
 #include <string>
 
@@ -11,8 +13,6 @@ namespace {
 
 using Made = std::unique_ptr<Bsdf>;
 
-// ---- parameters several plug-ins share
-
 /// An index of refraction: a number or the name of a material.
 float read_ior(Properties& p, const std::string& name, const char* fallback) {
   const XmlNode* node = p.find(name);
@@ -23,11 +23,16 @@ float read_ior(Properties& p, const std::string& name, const char* fallback) {
   return *ior;
 }
 
-/// Interior index over exterior index.
+}  // namespace
+
 float read_eta(Properties& p, const char* interior) {
   const float inside = read_ior(p, "int_ior", interior);
   return inside / read_ior(p, "ext_ior", "air");
 }
+
+namespace {
+
+// ---- parameters several plug-ins share
 
 float read_alpha(Properties& p, const std::string& name, float fallback) {
   const XmlNode* node = p.find(name);
@@ -37,10 +42,35 @@ float read_alpha(Properties& p, const std::string& name, float fallback) {
   return p.positive(name, fallback);
 }
 
+Scalar read_alpha_or_texture(Properties& p, SceneBuilder& b, const std::string& name,
+                             Scalar fallback) {
+  const XmlNode* node = p.find(name);
+  if (!node) return fallback;
+  if (node->object().tag == "texture") return b.scalar(p, name, 0);
+  return p.positive(name, 0);
+}
+
 MicrofacetKind read_distribution(Properties& p) {
   p.ignore({"sample_visible"});
   return p.choice("distribution", {"beckmann", "ggx"}) == "ggx" ? MicrofacetKind::ggx
                                                                 : MicrofacetKind::beckmann;
+}
+
+/// 'alpha', or 'alpha_u' and 'alpha_v'.
+Roughness read_roughness(Properties& p, SceneBuilder& b) {
+  if ((p.find("alpha_u") || p.find("alpha_v")) && p.find("alpha")) {
+    p.fail("alpha", "give either 'alpha' or 'alpha_u' and 'alpha_v'");
+  }
+  const Scalar alpha = read_alpha_or_texture(p, b, "alpha", 0.1f);
+  return {.kind = read_distribution(p),
+          .alpha_u = read_alpha_or_texture(p, b, "alpha_u", alpha),
+          .alpha_v = read_alpha_or_texture(p, b, "alpha_v", alpha)};
+}
+
+/// Exporters give roughness to smooth materials too.
+void ignore_alpha(Properties& p, SceneBuilder& b) {
+  if (!p.find("alpha")) return;
+  b.warn(p.where("alpha"), "'alpha' is ignored: the " + p.type() + " is smooth");
 }
 
 DielectricConfig read_dielectric(Properties& p, SceneBuilder& b) {
@@ -83,23 +113,16 @@ PlasticConfig read_plastic(Properties& p, SceneBuilder& b) {
           .nonlinear = p.boolean("nonlinear").value_or(false)};
 }
 
-/// The nested <bsdf>s, at least one and at most `most`.
-std::vector<const XmlNode*> read_nested(Properties& p, std::size_t most) {
-  std::vector<const XmlNode*> nested = p.objects("bsdf");
-  if (nested.empty() || nested.size() > most) {
-    fail(p.node().where, "bsdf '" + p.type() + "' needs " + (most > 1 ? "one or two" : "one") +
-                             " nested <bsdf>; there are " + std::to_string(nested.size()));
-  }
-  return nested;
-}
-
 // ---- one maker per plug-in
 
 Made diffuse(Properties& p, SceneBuilder& b) {
   return make_diffuse(b.color(p, "reflectance", 0.5f));
 }
 
-Made dielectric(Properties& p, SceneBuilder& b) { return make_dielectric(read_dielectric(p, b)); }
+Made dielectric(Properties& p, SceneBuilder& b) {
+  ignore_alpha(p, b);
+  return make_dielectric(read_dielectric(p, b));
+}
 
 Made thin_dielectric(Properties& p, SceneBuilder& b) {
   return make_thin_dielectric(read_dielectric(p, b));
@@ -107,26 +130,21 @@ Made thin_dielectric(Properties& p, SceneBuilder& b) {
 
 Made rough_dielectric(Properties& p, SceneBuilder& b) {
   const RoughDielectricConfig config{.dielectric = read_dielectric(p, b),
-                                     .kind = read_distribution(p),
-                                     .alpha = read_alpha(p, "alpha", 0.1f)};
+                                     .roughness = read_roughness(p, b)};
   if (config.dielectric.eta == 1) {
     p.fail("int_ior", "a roughdielectric needs different 'int_ior' and 'ext_ior'");
   }
   return make_rough_dielectric(config);
 }
 
-Made conductor(Properties& p, SceneBuilder& b) { return make_conductor(read_conductor(p, b)); }
+Made conductor(Properties& p, SceneBuilder& b) {
+  ignore_alpha(p, b);
+  return make_conductor(read_conductor(p, b));
+}
 
 Made rough_conductor(Properties& p, SceneBuilder& b) {
-  const bool anisotropic = p.find("alpha_u") || p.find("alpha_v");
-  if (anisotropic && p.find("alpha")) {
-    p.fail("alpha", "give either 'alpha' or 'alpha_u' and 'alpha_v'");
-  }
-  const float alpha = read_alpha(p, "alpha", 0.1f);
-  return make_rough_conductor({.conductor = read_conductor(p, b),
-                               .kind = read_distribution(p),
-                               .alpha_u = read_alpha(p, "alpha_u", alpha),
-                               .alpha_v = read_alpha(p, "alpha_v", alpha)});
+  return make_rough_conductor(
+      {.conductor = read_conductor(p, b), .roughness = read_roughness(p, b)});
 }
 
 Made plastic(Properties& p, SceneBuilder& b) { return make_plastic(read_plastic(p, b)); }
@@ -137,21 +155,10 @@ Made rough_plastic(Properties& p, SceneBuilder& b) {
                              .alpha = read_alpha(p, "alpha", 0.1f)});
 }
 
-Made two_sided(Properties& p, SceneBuilder& b) {
-  const std::vector<const XmlNode*> nested = read_nested(p, 2);
-  for (const XmlNode* object : nested) {
-    const std::string& type = object->required("type");
-    if (type.find("dielectric") != std::string::npos || type == "mask") {
-      fail(object->where, "a twosided bsdf cannot hold a '" + type + "', which lets light through");
-    }
-  }
-  const int front = b.bsdf(*nested.front()), back = b.bsdf(*nested.back());
-  return make_two_sided(*b.scene().bsdfs[front], *b.scene().bsdfs[back]);
-}
-
-Made mask(Properties& p, SceneBuilder& b) {
-  const int inner = b.bsdf(*read_nested(p, 1).front());
-  return make_mask(*b.scene().bsdfs[inner], b.color(p, "opacity", 0.5f));
+Made phong(Properties& p, SceneBuilder& b) {
+  return make_phong({.diffuse_reflectance = b.color(p, "diffuse_reflectance", 0.5f),
+                     .specular_reflectance = b.color(p, "specular_reflectance", 0.2f),
+                     .exponent = b.scalar(p, "exponent", 30)});
 }
 
 constexpr Plugin<Made (*)(Properties&, SceneBuilder&)> kPlugins[] = {
@@ -163,13 +170,23 @@ constexpr Plugin<Made (*)(Properties&, SceneBuilder&)> kPlugins[] = {
     {"roughconductor", rough_conductor},
     {"plastic", plastic},
     {"roughplastic", rough_plastic},
-    {"twosided", two_sided},
-    {"mask", mask},
+    {"phong", phong},
+    {"twosided", make_two_sided_bsdf},
+    {"mask", make_mask_bsdf},
+    {"coating", make_coating_bsdf},
+    {"bumpmap", make_bump_map_bsdf},
+    {"bump", make_bump_map_bsdf},
+    {"normalmap", make_normal_map_bsdf},
+    {"blendbsdf", make_blend_bsdf},
+    {"mixturebsdf", make_mixture_bsdf},
 };
 
 }  // namespace
 
 std::unique_ptr<Bsdf> make_bsdf(Properties& properties, SceneBuilder& builder) {
+  if (properties.find("use_path_guiding")) {
+    builder.warn("the bsdf parameter 'usePathGuiding' is ignored: it is the integrator's affair");
+  }
   return find_plugin(kPlugins, properties)(properties, builder);
 }
 

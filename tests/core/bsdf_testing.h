@@ -72,37 +72,37 @@ inline std::vector<BsdfCase> bsdf_cases(bool white = false) {
       {"conductor", [=] { return single(make_conductor(metal)); }},
       {"rough_conductor_beckmann",
        [=] {
-         return single(make_rough_conductor({metal, kBeckmann, 0.1f, 0.1f}));
+         return single(make_rough_conductor({metal, {kBeckmann, 0.1f, 0.1f}}));
        },
        false, 0.1f},
       {"rough_conductor_ggx",
        [=] {
-         return single(make_rough_conductor({metal, kGgx, 0.6f, 0.6f}));
+         return single(make_rough_conductor({metal, {kGgx, 0.6f, 0.6f}}));
        },
        false, 0.6f},
       {"rough_conductor_brushed",
        [=] {
-         return single(make_rough_conductor({metal, kGgx, 0.1f, 0.5f}));
+         return single(make_rough_conductor({metal, {kGgx, 0.1f, 0.5f}}));
        },
        false, 0.1f},
       {"rough_conductor_brushed_beckmann",
        [=] {
-         return single(make_rough_conductor({metal, kBeckmann, 0.7f, 0.25f}));
+         return single(make_rough_conductor({metal, {kBeckmann, 0.7f, 0.25f}}));
        },
        false, 0.25f},
       {"rough_dielectric_beckmann",
        [=] {
-         return single(make_rough_dielectric({glass, kBeckmann, 0.3f}));
+         return single(make_rough_dielectric({glass, {kBeckmann, 0.3f, 0.3f}}));
        },
        true, 0.3f},
       {"rough_dielectric_ggx",
        [=] {
-         return single(make_rough_dielectric({glass, kGgx, 0.1f}));
+         return single(make_rough_dielectric({glass, {kGgx, 0.1f, 0.1f}}));
        },
        true, 0.1f},
       {"rough_dielectric_bubble",
        [=] {
-         return single(make_rough_dielectric({bubble, kGgx, 0.4f}));
+         return single(make_rough_dielectric({bubble, {kGgx, 0.4f, 0.4f}}));
        },
        true, 0.4f},
       {"plastic", [=] { return single(make_plastic(plastic)); }},

@@ -39,7 +39,7 @@ TEST(BitmapTexture, NearestTakesTheTexelThatHoldsThePoint) {
 
 TEST(BitmapTexture, WrapsOutsideTheUnitSquare) {
   const auto nearest = [](TextureWrap wrap, float u) {
-    return at({.filter = TextureFilter::nearest, .wrap = wrap}, u, 0.25f).r;
+    return at({.filter = TextureFilter::nearest, .wrap_u = wrap, .wrap_v = wrap}, u, 0.25f).r;
   };
   EXPECT_EQ(nearest(TextureWrap::repeat, 1.125f), 0);
   EXPECT_EQ(nearest(TextureWrap::repeat, -0.125f), 3);
@@ -52,7 +52,9 @@ TEST(BitmapTexture, WrapsOutsideTheUnitSquare) {
 }
 
 TEST(BitmapTexture, InterpolatesAcrossTheSeam) {
-  const auto seam = [](TextureWrap wrap) { return at({.wrap = wrap}, 0, 0.25f).r; };
+  const auto seam = [](TextureWrap wrap) {
+    return at({.wrap_u = wrap, .wrap_v = wrap}, 0, 0.25f).r;
+  };
   EXPECT_EQ(seam(TextureWrap::repeat), 1.5f);  // between columns 3 and 0
   EXPECT_EQ(seam(TextureWrap::mirror), 0);
   EXPECT_EQ(seam(TextureWrap::clamp), 0);
