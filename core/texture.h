@@ -20,6 +20,8 @@ class Texture {
   virtual Rgb eval(Vec2 uv) const = 0;
   /// Mean over the unit square; for albedo estimates and for choosing lobes.
   virtual Rgb mean() const = 0;
+  /// What it counts as where a number is wanted.
+  virtual float number(Vec2 uv) const { return luminance(eval(uv)); }
   /// Change of the value's luminance with u and v, for bump maps; 0 where it jumps.
   virtual Vec2 gradient(Vec2 /*uv*/) const { return {0, 0}; }
   /// No component is larger than this.
@@ -49,7 +51,7 @@ class Scalar {
   Scalar(float constant) : constant_(constant) {}  // NOLINT: a number is a constant
   explicit Scalar(const Texture& texture) : texture_(&texture) {}
 
-  float operator()(Vec2 uv) const { return texture_ ? luminance(texture_->eval(uv)) : constant_; }
+  float operator()(Vec2 uv) const { return texture_ ? texture_->number(uv) : constant_; }
   float mean() const { return texture_ ? luminance(texture_->mean()) : constant_; }
   Vec2 gradient(Vec2 uv) const { return texture_ ? texture_->gradient(uv) : Vec2{0, 0}; }
   bool is_constant() const { return !texture_; }

@@ -17,6 +17,9 @@ class CheckerboardTexture final : public Texture {
     return upper_half(p.x) == upper_half(p.y) ? color0_ : color1_;
   }
 
+  /// Where numbers are wanted, Mitsuba exchanges the colours, and its scenes rely on that.
+  float number(Vec2 uv) const override { return luminance(color0_ + color1_ - eval(uv)); }
+
   Rgb mean() const override { return (color0_ + color1_) * 0.5f; }
   float maximum() const override {
     return std::max(max_component(color0_), max_component(color1_));

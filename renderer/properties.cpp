@@ -104,7 +104,7 @@ std::optional<Vec3> Properties::point(const std::string& name) {
 }
 
 std::optional<Rgb> Properties::color(const std::string& name, ColorRole role) {
-  const XmlNode* found = value(name, {"rgb", "spectrum", "srgb", "color", "float"});
+  const XmlNode* found = value(name, {"rgb", "spectrum", "srgb", "color", "blackbody", "float"});
   if (!found) return std::nullopt;
   return parse_color(*found, role);
 }

@@ -26,6 +26,9 @@ void read_integrator(Properties& properties, SceneBuilder& builder);
 
 /// Adds an emitter that is no shape (not `area`) to the scene.
 void add_light(Properties& properties, SceneBuilder& builder);
+/// Makes `light` the scene's environment, of which there can be only one.
+void set_environment(std::unique_ptr<EnvironmentLight> light, const Properties& properties,
+                     SceneBuilder& builder);
 /// Makes Scene::shapes[shape] emit. The list of shapes must be final.
 void add_area_light(const XmlNode& emitter, std::size_t shape, SceneBuilder& builder);
 

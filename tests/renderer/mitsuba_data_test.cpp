@@ -71,6 +71,14 @@ INSTANTIATE_TEST_SUITE_P(
              "bsdf_spheres/refs/test_roughplastic_nonlinear_ref"},
         Case{"bsdf_spheres/test_textured_diffuse_path.xml",
              "bsdf_spheres/refs/test_textured_diffuse_ref"},
+        Case{"bsdf_spheres/test_textured_roughconductor_path.xml",
+             "bsdf_spheres/refs/test_textured_roughconductor_ref"},
+        Case{"bsdf_spheres/test_normalmap_path.xml", "bsdf_spheres/refs/test_normalmap_ref"},
+        Case{"bsdf_spheres/test_normalmap_roughconductor_path.xml",
+             "bsdf_spheres/refs/test_normalmap_roughconductor_ref"},
+        Case{"bsdf_spheres/test_normalmap_identity_roughconductor_path.xml",
+             "bsdf_spheres/refs/test_normalmap_identity_roughconductor_ref"},
+        Case{"bsdf_spheres/test_bumpmap_path.xml", "bsdf_spheres/refs/test_bumpmap_ref"},
         Case{"infinite_mirrors/scene_path.xml", "infinite_mirrors/refs/scene_ref"}),
     [](const testing::TestParamInfo<Case>& param) {
       std::string name = std::filesystem::path(param.param.reference).filename().string();
