@@ -101,11 +101,17 @@ struct CoatingConfig {
 /// `inner` under a smooth dielectric layer; Mitsuba 0.6's `coating`.
 std::unique_ptr<Bsdf> make_coating(const Bsdf& inner, const CoatingConfig& config);
 
+/// What Mitsuba 3 does, and 0.6 does not, where a tilted normal has no meaning.
+struct TiltRepairs {
+  bool mirror = true;  // a normal that faces away from the viewer is mirrored about the surface's
+  bool fade = true;    // light at grazing angles fades
+};
 /// `inner` with its shading normal tilted by a height field: `height` is in scene units, times
 /// `scale`.
-std::unique_ptr<Bsdf> make_bump_map(const Bsdf& inner, Scalar height, float scale);
+std::unique_ptr<Bsdf> make_bump_map(const Bsdf& inner, Scalar height, float scale,
+                                    TiltRepairs repairs = {});
 /// `inner` with its shading normal given by a texture, (n + 1) / 2 in the frame of the tangents.
-std::unique_ptr<Bsdf> make_normal_map(const Bsdf& inner, Color normals);
+std::unique_ptr<Bsdf> make_normal_map(const Bsdf& inner, Color normals, TiltRepairs repairs = {});
 
 /// (1 - weight) `first` + weight `second`, weight clamped to [0, 1].
 std::unique_ptr<Bsdf> make_blend(const Bsdf& first, const Bsdf& second, Scalar weight);

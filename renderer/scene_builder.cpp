@@ -16,6 +16,11 @@ SceneBuilder::SceneBuilder(const XmlDocument& document, Scene& scene)
   for (const std::string& text : document.warnings()) warn(text);
 }
 
+bool SceneBuilder::old_dialect() const {
+  const std::string* version = document_.root().attribute("version");
+  return version && version->starts_with("0.");
+}
+
 int SceneBuilder::bsdf(const XmlNode& object) {
   const auto known = bsdfs_.find(&object);
   if (known != bsdfs_.end()) return known->second;

@@ -17,6 +17,8 @@ class SceneBuilder {
   SceneBuilder(const XmlDocument& document, Scene& scene);
 
   Scene& scene() { return scene_; }
+  /// Is the file written for Mitsuba 0.x?
+  bool old_dialect() const;
 
   /// Index of this <bsdf> in Scene::bsdfs; made once.
   int bsdf(const XmlNode& object);

@@ -56,6 +56,12 @@ void refuse_tilt_inside(const Properties& p) {
   }
 }
 
+TiltRepairs read_repairs(Properties& p, const SceneBuilder& b) {
+  const bool fallback = !b.old_dialect();
+  return {.mirror = p.boolean("flip_invalid_normals").value_or(fallback),
+          .fade = p.boolean("use_shadowing_function").value_or(fallback)};
+}
+
 }  // namespace
 
 std::unique_ptr<Bsdf> make_two_sided_bsdf(Properties& p, SceneBuilder& b) {
@@ -95,13 +101,13 @@ std::unique_ptr<Bsdf> make_bump_map_bsdf(Properties& p, SceneBuilder& b) {
   refuse_tilt_inside(p);
   const Bsdf& inner = read_inner(p, b);
   const Scalar height(read_texture(p, b));
-  return make_bump_map(inner, height, p.number("scale").value_or(1));
+  return make_bump_map(inner, height, p.number("scale").value_or(1), read_repairs(p, b));
 }
 
 std::unique_ptr<Bsdf> make_normal_map_bsdf(Properties& p, SceneBuilder& b) {
   refuse_tilt_inside(p);
   const Bsdf& inner = read_inner(p, b);
-  return make_normal_map(inner, Color(read_texture(p, b)));
+  return make_normal_map(inner, Color(read_texture(p, b)), read_repairs(p, b));
 }
 
 std::unique_ptr<Bsdf> make_blend_bsdf(Properties& p, SceneBuilder& b) {
