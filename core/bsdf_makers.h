@@ -92,6 +92,15 @@ struct PhongConfig {
 /// where the two would reflect more than they receive.
 std::unique_ptr<Bsdf> make_phong(const PhongConfig& config);
 
+struct PrincipledConfig {
+  Color base_color{Rgb(0.5f)};
+  float eta = 1.5f;  // not 1
+  Scalar roughness = 0.5f, anisotropic = 0, metallic = 0, spec_trans = 0, spec_tint = 0;
+  Scalar clearcoat = 0, clearcoat_gloss = 0, sheen = 0, sheen_tint = 0, flatness = 0;
+};
+/// Disney's material as in Mitsuba 3's `principled`; all numbers in [0, 1].
+std::unique_ptr<Bsdf> make_principled(const PrincipledConfig& config);
+
 struct CoatingConfig {
   float eta = 1.5046f / 1.000277f;
   float thickness = 1;    // in units of 1 / sigma_a

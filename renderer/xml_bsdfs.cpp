@@ -1,6 +1,7 @@
 // <bsdf>: names, parameters and defaults of Mitsuba's surface plug-ins that we model.
 #include "renderer/xml_bsdfs.h"
 
+#include <cmath>
 #include <memory>
 #include <string>
 
@@ -161,6 +162,35 @@ Made phong(Properties& p, SceneBuilder& b) {
                      .exponent = b.scalar(p, "exponent", 30)});
 }
 
+/// 'eta', or 'specular', which stands for the reflectance at normal incidence over 0.08.
+float read_principled_eta(Properties& p) {
+  if (p.find("eta") && p.find("specular")) p.fail("eta", "give either 'eta' or 'specular'");
+  const float specular = p.number("specular").value_or(0.5f);
+  if (!(specular >= 0 && specular <= 1)) {
+    p.fail("specular", "'specular' must lie between 0 and 1");
+  }
+  const float from_specular = 2 / (1 - std::sqrt(0.08f * std::max(specular, 1e-3f))) - 1;
+  const float eta = p.find("eta") ? p.positive("eta", 1) : from_specular;
+  return eta == 1 ? 1.001f : eta;  // as in Mitsuba: equal indices have no boundary
+}
+
+Made principled(Properties& p, SceneBuilder& b) {
+  p.ignore({"main_specular_sampling_rate", "clearcoat_sampling_rate",
+            "diffuse_reflectance_sampling_rate"});
+  return make_principled({.base_color = b.color(p, "base_color", 0.5f),
+                          .eta = read_principled_eta(p),
+                          .roughness = b.scalar(p, "roughness", 0.5f),
+                          .anisotropic = b.scalar(p, "anisotropic", 0),
+                          .metallic = b.scalar(p, "metallic", 0),
+                          .spec_trans = b.scalar(p, "spec_trans", 0),
+                          .spec_tint = b.scalar(p, "spec_tint", 0),
+                          .clearcoat = b.scalar(p, "clearcoat", 0),
+                          .clearcoat_gloss = b.scalar(p, "clearcoat_gloss", 0),
+                          .sheen = b.scalar(p, "sheen", 0),
+                          .sheen_tint = b.scalar(p, "sheen_tint", 0),
+                          .flatness = b.scalar(p, "flatness", 0)});
+}
+
 constexpr Plugin<Made (*)(Properties&, SceneBuilder&)> kPlugins[] = {
     {"diffuse", diffuse},
     {"dielectric", dielectric},
@@ -171,6 +201,7 @@ constexpr Plugin<Made (*)(Properties&, SceneBuilder&)> kPlugins[] = {
     {"plastic", plastic},
     {"roughplastic", rough_plastic},
     {"phong", phong},
+    {"principled", principled},
     {"twosided", make_two_sided_bsdf},
     {"mask", make_mask_bsdf},
     {"coating", make_coating_bsdf},

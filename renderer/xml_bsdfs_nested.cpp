@@ -38,6 +38,10 @@ std::string transmitting_type(const XmlNode& object) {
   const std::string& type = object.required("type");
   if (type.find("dielectric") != std::string::npos || type == "mask") return type;
   for (const XmlNode& child : object.children) {
+    const std::string* name = child.attribute("name");
+    if (type == "principled" && name && parameter_name(*name) == "spec_trans") return type;
+  }
+  for (const XmlNode& child : object.children) {
     if (child.object().tag != "bsdf") continue;
     const std::string found = transmitting_type(child.object());
     if (!found.empty()) return found;

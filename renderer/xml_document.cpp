@@ -8,12 +8,14 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <optional>
 #include <pugixml.hpp>
 #include <set>
 
 #include "core/error.h"
 #include "core/file_io.h"
 #include "core/hash.h"
+#include "renderer/file_search.h"
 #include "renderer/xml_grammar.h"
 #include "renderer/xml_references.h"
 
@@ -225,8 +227,7 @@ std::string XmlDocument::find_file(const std::string& name, const Location& wher
   folders.insert(folders.end(), search_path_.rbegin(), search_path_.rend());
   folders.erase(std::unique(folders.begin(), folders.end()), folders.end());
   for (const std::string& folder : folders) {
-    const fs::path candidate = fs::path(folder) / name;
-    if (fs::is_regular_file(candidate)) return candidate.string();
+    if (const std::optional<std::string> found = find_in_folder(folder, name)) return *found;
   }
   std::string searched;
   for (const std::string& folder : folders) {

@@ -40,8 +40,10 @@ TEST(MtlFile, ValuesAndDefaults) {
   EXPECT_EQ(m.opacity, 0.25f);
   EXPECT_EQ(m.illum, 2);
   ASSERT_EQ(m.maps.size(), 2u);
-  EXPECT_EQ(m.maps[0], (std::pair<std::string, std::string>("map_Kd", "a b.png")));
-  EXPECT_EQ(m.maps[1], (std::pair<std::string, std::string>("bump", "c.png")));
+  EXPECT_EQ(m.maps[0].key, "map_Kd");
+  EXPECT_EQ(m.maps[0].file, "a b.png");
+  EXPECT_EQ(m.maps[1].key, "bump");
+  EXPECT_EQ(m.maps[1].file, "c.png");
   const MtlMaterial none = material("");
   EXPECT_EQ(none.kd, Rgb(0));
   EXPECT_EQ(none.ni, 1);
