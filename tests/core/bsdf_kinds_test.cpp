@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-const SurfacePoint kPoint;
+const SurfacePoint kPoint = test::flat_point();
 constexpr Rgb kGrey(0.5f);
 
 TEST(BsdfLobes, KindFollowsRoughness) {
