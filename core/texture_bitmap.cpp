@@ -100,7 +100,9 @@ class BitmapTexture final : public Texture {
   }
   static Rgb outside(TextureWrap wrap) { return Rgb(wrap == TextureWrap::one ? 1.0f : 0.0f); }
 
-  Rgb nearest(float x, float y) const { return texel(static_cast<int>(x), static_cast<int>(y)); }
+  Rgb nearest(float x, float y) const {
+    return texel(static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
+  }
 
   /// Four texels, the first at (x, y), and the place between them.
   struct Cell {

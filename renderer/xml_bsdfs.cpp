@@ -1,6 +1,7 @@
 // <bsdf>: names, parameters and defaults of Mitsuba's surface plug-ins that we model.
 #include "renderer/xml_bsdfs.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -215,7 +216,13 @@ constexpr Plugin<Made (*)(Properties&, SceneBuilder&)> kPlugins[] = {
 }  // namespace
 
 std::unique_ptr<Bsdf> make_bsdf(Properties& properties, SceneBuilder& builder) {
-  if (properties.find("use_path_guiding")) {
+  const std::vector<XmlNode>& children = properties.node().children;
+  const bool guided = std::any_of(children.begin(), children.end(), [](const XmlNode& child) {
+    const std::string* name = child.attribute("name");
+    return name && parameter_name(*name) == "use_path_guiding";
+  });
+  if (guided) {
+    properties.ignore({"use_path_guiding"});
     builder.warn("the bsdf parameter 'usePathGuiding' is ignored: it is the integrator's affair");
   }
   return find_plugin(kPlugins, properties)(properties, builder);

@@ -167,7 +167,7 @@ TEST(MtlMaterial, Warnings) {
     return made->scene.warnings.empty() ? "" : made->scene.warnings.at(0);
   };
   EXPECT_NE(said("Kd 1.5 0 0\n").find("a.mtl:1: material 'm': Kd above 1"), std::string::npos);
-  EXPECT_NE(said("map_Kd x.png\n").find("texture map ignored: map_Kd x.png"), std::string::npos);
+  EXPECT_NE(said("map_Kd x.png\n").find("texture file not found: map_Kd x.png"), std::string::npos);
   EXPECT_NE(said("Ka 1 1 1\n").find("gives no colour; taken as grey"), std::string::npos);
   EXPECT_EQ(said("Kd 0 0 0\n"), "");
   EXPECT_EQ(said("Ke 1 1 1\n"), "");
