@@ -30,7 +30,7 @@ struct Roughness {
   Scalar alpha_u = 0.1f;  // along the tangent
   Scalar alpha_v = 0.1f;
 
-  Microfacet at(Vec2 uv) const { return {kind, alpha_u(uv), alpha_v(uv)}; }
+  Microfacet at(const TexturePoint& uv) const { return {kind, alpha_u(uv), alpha_v(uv)}; }
   /// By the mean where it varies: a surface is S or D as a whole.
   Lobes lobe() const { return microfacet_lobe(std::min(alpha_u.mean(), alpha_v.mean())); }
   bool isotropic() const {

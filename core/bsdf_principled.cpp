@@ -120,7 +120,7 @@ class Principled final : public Bsdf {
     }
   };
   Material material(const SurfacePoint& at) const {
-    const Vec2 uv = at.uv;
+    const TexturePoint& uv = at.uv;
     const float metallic = c_.metallic(uv), spec_trans = c_.spec_trans(uv);
     const float roughness = c_.roughness(uv);
     const Vec2 alpha = alphas(roughness, c_.anisotropic(uv));

@@ -25,7 +25,7 @@ class BitmapTexture final : public Texture {
     mean_ = Rgb(static_cast<float>(r / n), static_cast<float>(g / n), static_cast<float>(b / n));
   }
 
-  Rgb eval(Vec2 uv) const override {
+  Rgb eval(const TexturePoint& uv) const override {
     const Vec3 p = config_.to_uv.point({uv.x, uv.y, 1});
     const float x = into_image(p.x, config_.wrap_u, image_.width);
     const float y = into_image(p.y, config_.wrap_v, image_.height);
@@ -36,7 +36,7 @@ class BitmapTexture final : public Texture {
   float maximum() const override { return std::max(maximum_, max_outside()); }
 
   /// Exact derivative of the bilinear interpolation, carried back through to_uv.
-  Vec2 gradient(Vec2 uv) const override {
+  Vec2 gradient(const TexturePoint& uv) const override {
     if (config_.filter == TextureFilter::nearest) return {0, 0};
     const Vec3 p = config_.to_uv.point({uv.x, uv.y, 1});
     const Cell c = cell(into_image(p.x, config_.wrap_u, image_.width),

@@ -12,13 +12,15 @@ class CheckerboardTexture final : public Texture {
   CheckerboardTexture(Rgb color0, Rgb color1, const Affine& to_uv)
       : color0_(color0), color1_(color1), to_uv_(to_uv) {}
 
-  Rgb eval(Vec2 uv) const override {
+  Rgb eval(const TexturePoint& uv) const override {
     const Vec3 p = to_uv_.point({uv.x, uv.y, 1});
     return upper_half(p.x) == upper_half(p.y) ? color0_ : color1_;
   }
 
   /// Where numbers are wanted, Mitsuba exchanges the colours, and its scenes rely on that.
-  float number(Vec2 uv) const override { return luminance(color0_ + color1_ - eval(uv)); }
+  float number(const TexturePoint& uv) const override {
+    return luminance(color0_ + color1_ - eval(uv));
+  }
 
   Rgb mean() const override { return (color0_ + color1_) * 0.5f; }
   float maximum() const override {

@@ -9,11 +9,13 @@ class ScaleTexture final : public Texture {
  public:
   ScaleTexture(const Texture& inner, Rgb factor) : inner_(inner), factor_(factor) {}
 
-  Rgb eval(Vec2 uv) const override { return inner_.eval(uv) * factor_; }
+  Rgb eval(const TexturePoint& uv) const override { return inner_.eval(uv) * factor_; }
   Rgb mean() const override { return inner_.mean() * factor_; }
   float maximum() const override { return inner_.maximum() * max_component(factor_); }
   /// Colour factors are rare here, and count by their luminance.
-  Vec2 gradient(Vec2 uv) const override { return inner_.gradient(uv) * luminance(factor_); }
+  Vec2 gradient(const TexturePoint& uv) const override {
+    return inner_.gradient(uv) * luminance(factor_);
+  }
 
  private:
   const Texture& inner_;
@@ -24,10 +26,10 @@ class ClampedTexture final : public Texture {
  public:
   explicit ClampedTexture(const Texture& inner) : inner_(inner) {}
 
-  Rgb eval(Vec2 uv) const override { return clamped(inner_.eval(uv)); }
+  Rgb eval(const TexturePoint& uv) const override { return clamped(inner_.eval(uv)); }
   Rgb mean() const override { return clamped(inner_.mean()); }
   float maximum() const override { return std::min(inner_.maximum(), 1.0f); }
-  Vec2 gradient(Vec2 uv) const override { return inner_.gradient(uv); }
+  Vec2 gradient(const TexturePoint& uv) const override { return inner_.gradient(uv); }
 
  private:
   static Rgb clamped(Rgb c) {

@@ -12,7 +12,7 @@
 #include "core/file_io.h"
 #include "core/hash.h"
 #include "core/image_io.h"
-#include "renderer/file_search.h"
+#include "renderer/find_file.h"
 
 namespace octolux {
 namespace {
@@ -43,14 +43,14 @@ Affine to_uv(const MtlMap& map) {
 const Texture* load(const MtlMaterial& m, const MtlMap& map, MtlMapUse use, Scene& scene) {
   const std::string mtl = m.place.substr(0, m.place.rfind(':'));
   const std::string folder = std::filesystem::path(mtl).parent_path().string();
-  const std::optional<std::string> path = find_in_folder(folder, map.file);
+  const std::optional<FoundFile> path = find_file({folder}, map.file);
   if (!path) {
     warn(m, map, "texture file not found", scene);
     return nullptr;
   }
-  scene.hash = hash_bytes(scene.hash, read_file(*path));
+  scene.hash = hash_bytes(scene.hash, read_file(path->path));
   Image image =
-      read_image(*path, use == MtlMapUse::colour ? Encoding::automatic : Encoding::linear);
+      read_image(path->path, use == MtlMapUse::colour ? Encoding::automatic : Encoding::linear);
   for (Rgb& c : image.pixels) c = {std::max(c.r, 0.0f), std::max(c.g, 0.0f), std::max(c.b, 0.0f)};
   const TextureWrap wrap = map.clamp ? TextureWrap::clamp : TextureWrap::repeat;
   scene.textures.push_back(

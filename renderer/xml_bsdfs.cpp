@@ -1,7 +1,6 @@
 // <bsdf>: names, parameters and defaults of Mitsuba's surface plug-ins that we model.
 #include "renderer/xml_bsdfs.h"
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -69,12 +68,6 @@ Roughness read_roughness(Properties& p, SceneBuilder& b) {
           .alpha_v = read_alpha_or_texture(p, b, "alpha_v", alpha)};
 }
 
-/// Exporters give roughness to smooth materials too.
-void ignore_alpha(Properties& p, SceneBuilder& b) {
-  if (!p.find("alpha")) return;
-  b.warn(p.where("alpha"), "'alpha' is ignored: the " + p.type() + " is smooth");
-}
-
 DielectricConfig read_dielectric(Properties& p, SceneBuilder& b) {
   return {.eta = read_eta(p, "bk7"),
           .specular_reflectance = b.constant_color(p, "specular_reflectance", 1),
@@ -121,10 +114,7 @@ Made diffuse(Properties& p, SceneBuilder& b) {
   return make_diffuse(b.color(p, "reflectance", 0.5f));
 }
 
-Made dielectric(Properties& p, SceneBuilder& b) {
-  ignore_alpha(p, b);
-  return make_dielectric(read_dielectric(p, b));
-}
+Made dielectric(Properties& p, SceneBuilder& b) { return make_dielectric(read_dielectric(p, b)); }
 
 Made thin_dielectric(Properties& p, SceneBuilder& b) {
   return make_thin_dielectric(read_dielectric(p, b));
@@ -139,10 +129,7 @@ Made rough_dielectric(Properties& p, SceneBuilder& b) {
   return make_rough_dielectric(config);
 }
 
-Made conductor(Properties& p, SceneBuilder& b) {
-  ignore_alpha(p, b);
-  return make_conductor(read_conductor(p, b));
-}
+Made conductor(Properties& p, SceneBuilder& b) { return make_conductor(read_conductor(p, b)); }
 
 Made rough_conductor(Properties& p, SceneBuilder& b) {
   return make_rough_conductor(
@@ -216,15 +203,6 @@ constexpr Plugin<Made (*)(Properties&, SceneBuilder&)> kPlugins[] = {
 }  // namespace
 
 std::unique_ptr<Bsdf> make_bsdf(Properties& properties, SceneBuilder& builder) {
-  const std::vector<XmlNode>& children = properties.node().children;
-  const bool guided = std::any_of(children.begin(), children.end(), [](const XmlNode& child) {
-    const std::string* name = child.attribute("name");
-    return name && parameter_name(*name) == "use_path_guiding";
-  });
-  if (guided) {
-    properties.ignore({"use_path_guiding"});
-    builder.warn("the bsdf parameter 'usePathGuiding' is ignored: it is the integrator's affair");
-  }
   return find_plugin(kPlugins, properties)(properties, builder);
 }
 

@@ -121,7 +121,7 @@ void add_area_light(const XmlNode& emitter, std::size_t shape_index, SceneBuilde
   const bool textured = given && given->object().tag == "texture";
   const Color radiance = textured ? Color(builder.texture(given->object()))
                                   : Color(read_emission(properties, "radiance"));
-  properties.finish();
+  builder.finish(properties);
 
   Scene& scene = builder.scene();
   Shape& shape = scene.shapes[shape_index];

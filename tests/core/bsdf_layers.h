@@ -11,9 +11,9 @@ namespace octolux::test {
 class SlopeTexture final : public Texture {
  public:
   explicit SlopeTexture(Vec2 slope) : slope_(slope) {}
-  Rgb eval(Vec2 uv) const override { return Rgb(0.5f + dot(slope_, uv)); }
+  Rgb eval(const TexturePoint& uv) const override { return Rgb(0.5f + dot(slope_, uv)); }
   Rgb mean() const override { return Rgb(0.5f); }
-  Vec2 gradient(Vec2) const override { return slope_; }
+  Vec2 gradient(const TexturePoint&) const override { return slope_; }
   float maximum() const override { return 1; }
 
  private:

@@ -93,6 +93,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"spot_light/test_spot_direct.xml", "spot_light/refs/test_spot_ref"},
         Case{"texture_interp/test_texture_interp_direct.xml",
              "texture_interp/refs/test_texture_interp_ref"},
+        Case{"instancing/test_instancing_path.xml", "instancing/refs/test_instancing_ref"},
         Case{"infinite_mirrors/scene_path.xml", "infinite_mirrors/refs/scene_ref"}),
     [](const testing::TestParamInfo<Case>& param) {
       std::string name = std::filesystem::path(param.param.reference).filename().string();

@@ -82,7 +82,7 @@ TEST(XmlMaterials, PathGuidingIsIgnoredWithOneWarning) {
                  "<bsdf type='diffuse' id='b'><boolean name='usePathGuiding' value='true'/></bsdf>"
                  "<emitter type='constant'/>"));
   ASSERT_EQ(scene->warnings.size(), 1u);
-  EXPECT_NE(scene->warnings[0].find("usePathGuiding"), std::string::npos);
+  EXPECT_NE(scene->warnings[0].find("use_path_guiding"), std::string::npos);
 }
 
 TEST(XmlEmitters, BlackBodiesInBothDialects) {

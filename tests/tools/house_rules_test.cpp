@@ -81,13 +81,14 @@ struct Owner {
 };
 
 const std::vector<Owner> kOwners = {
-    {"embree", {"accel/ray_caster.cpp"}},
+    {"embree", {"accel/embree_scene.h", "accel/ray_caster.cpp"}},
     {"Imf", {"core/exr_io.cpp"}},
     {"stb", {"core/stb_io.cpp"}},
     {"OpenColorIO", {"core/display.cpp"}},
     {"tbb/", {"core/parallel.cpp", "accel/"}},
     {"pugixml", {"renderer/"}},
     {"tiny_obj", {"renderer/"}},
+    {"zlib", {"renderer/serialized_file.cpp"}},
     {"CLI/", {"tools/"}},
 };
 
