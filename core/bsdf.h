@@ -85,15 +85,23 @@ class Bsdf {
   bool smooth_transmission() const { return smooth_transmission_; }
   /// May pass_through be non-zero?
   bool passes_light() const { return passes_light_; }
+  /// Does it look at the surface's tangents? Then SurfacePoint::dp_du and dp_dv must be set, and
+  /// the local x axis is along dp_du.
+  bool needs_tangents() const { return needs_tangents_; }
 
  protected:
-  explicit Bsdf(Lobes lobes, bool smooth_transmission = false, bool passes_light = false)
-      : lobes_(lobes), smooth_transmission_(smooth_transmission), passes_light_(passes_light) {}
+  explicit Bsdf(Lobes lobes, bool smooth_transmission = false, bool passes_light = false,
+                bool needs_tangents = false)
+      : lobes_(lobes),
+        smooth_transmission_(smooth_transmission),
+        passes_light_(passes_light),
+        needs_tangents_(needs_tangents) {}
 
  private:
   Lobes lobes_;
   bool smooth_transmission_;
   bool passes_light_;
+  bool needs_tangents_;
 };
 
 /// The kind a microfacet lobe of roughness `alpha` (its smaller one if anisotropic) belongs to.

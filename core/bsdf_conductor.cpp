@@ -31,29 +31,30 @@ class Conductor final : public DeltaBsdf {
 class RoughConductor final : public Bsdf {
  public:
   explicit RoughConductor(const RoughConductorConfig& config)
-      : Bsdf(microfacet_lobe(std::min(config.alpha_u, config.alpha_v))),
+      : Bsdf(config.roughness.lobe(), false, false, !config.roughness.isotropic()),
         conductor_(config.conductor),
-        microfacet_(config.kind, config.alpha_u, config.alpha_v) {}
+        roughness_(config.roughness) {}
 
   Rgb f(const SurfacePoint& at, Vec3 wo, Vec3 wi, Lobes lobes, Carried) const override {
     if (wo.z <= 0 || wi.z <= 0 || !has(lobes)) return Rgb(0);
-    const Microfacet::Reflection r = microfacet_.reflection(wo, wi);
+    const Microfacet::Reflection r = roughness_.at(at.uv).reflection(wo, wi);
     return reflectance(at, r.cos_m) * r.f;
   }
 
-  float pdf_w(const SurfacePoint&, Vec3 wo, Vec3 wi, Lobes lobes) const override {
+  float pdf_w(const SurfacePoint& at, Vec3 wo, Vec3 wi, Lobes lobes) const override {
     if (wo.z <= 0 || wi.z <= 0 || !has(lobes)) return 0;
-    return microfacet_.reflected_pdf_w(wo, normalize(wo + wi));
+    return roughness_.at(at.uv).reflected_pdf_w(wo, normalize(wo + wi));
   }
 
   std::optional<BsdfSample> sample(const SurfacePoint& at, Vec3 wo, float, Vec2 u, Lobes asked,
                                    Carried) const override {
     if (wo.z <= 0 || !has(asked)) return std::nullopt;
-    const Vec3 m = microfacet_.sample_visible(wo, u);
+    const Microfacet microfacet = roughness_.at(at.uv);
+    const Vec3 m = microfacet.sample_visible(wo, u);
     const Vec3 wi = reflect(wo, m);
     if (wi.z <= 0) return std::nullopt;
-    const float pdf_w = microfacet_.reflected_pdf_w(wo, m);
-    const Rgb weight = reflectance(at, dot(wo, m)) * microfacet_.g1(wi, m);
+    const float pdf_w = microfacet.reflected_pdf_w(wo, m);
+    const Rgb weight = reflectance(at, dot(wo, m)) * microfacet.g1(wi, m);
     if (pdf_w <= 0 || is_black(weight)) return std::nullopt;
     return BsdfSample{wi, weight, pdf_w, lobes(), 1};
   }
@@ -67,7 +68,7 @@ class RoughConductor final : public Bsdf {
   }
 
   ConductorConfig conductor_;
-  Microfacet microfacet_;
+  Roughness roughness_;
 };
 
 }  // namespace

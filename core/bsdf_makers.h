@@ -2,7 +2,9 @@
 // is implemented in a file of its own, core/bsdf_<kind>.cpp, and seen through core/bsdf.h only.
 #pragma once
 
+#include <algorithm>
 #include <memory>
+#include <span>
 
 #include "core/bsdf.h"
 #include "core/microfacet.h"
@@ -22,10 +24,23 @@ std::unique_ptr<Bsdf> make_dielectric(const DielectricConfig& config);
 /// A thin pane with all its internal reflections (Stokes); transmission is pass_through.
 std::unique_ptr<Bsdf> make_thin_dielectric(const DielectricConfig& config);
 
+/// Microfacets whose roughness may vary over the surface.
+struct Roughness {
+  MicrofacetKind kind = MicrofacetKind::beckmann;
+  Scalar alpha_u = 0.1f;  // along the tangent
+  Scalar alpha_v = 0.1f;
+
+  Microfacet at(const TexturePoint& uv) const { return {kind, alpha_u(uv), alpha_v(uv)}; }
+  /// By the mean where it varies: a surface is S or D as a whole.
+  Lobes lobe() const { return microfacet_lobe(std::min(alpha_u.mean(), alpha_v.mean())); }
+  bool isotropic() const {
+    return alpha_u.is_constant() && alpha_v.is_constant() && alpha_u.mean() == alpha_v.mean();
+  }
+};
+
 struct RoughDielectricConfig {
   DielectricConfig dielectric;
-  MicrofacetKind kind = MicrofacetKind::beckmann;
-  float alpha = 0.1f;
+  Roughness roughness;
 };
 /// Walter et al., EGSR 2007. `eta` must not be 1: a boundary between equals has no normals.
 std::unique_ptr<Bsdf> make_rough_dielectric(const RoughDielectricConfig& config);
@@ -39,9 +54,7 @@ std::unique_ptr<Bsdf> make_conductor(const ConductorConfig& config);
 
 struct RoughConductorConfig {
   ConductorConfig conductor;
-  MicrofacetKind kind = MicrofacetKind::beckmann;
-  float alpha_u = 0.1f;  // along the tangent; equal values are isotropic
-  float alpha_v = 0.1f;
+  Roughness roughness;
 };
 std::unique_ptr<Bsdf> make_rough_conductor(const RoughConductorConfig& config);
 
@@ -69,6 +82,54 @@ struct GlossyConfig {
 /// Wavefront MTL's Kd + Ks + Ns: Lambert under a GGX lobe with Schlick's Fresnel; never reflects
 /// more than it receives.
 std::unique_ptr<Bsdf> make_glossy(const GlossyConfig& config);
+
+struct PhongConfig {
+  Color diffuse_reflectance{Rgb(0.5f)};
+  Color specular_reflectance{Rgb(0.2f)};
+  Scalar exponent = 30;
+};
+/// Mitsuba's `phong`: Lambert and the modified Phong lobe (Lafortune & Willems 1994), scaled down
+/// where the two would reflect more than they receive.
+std::unique_ptr<Bsdf> make_phong(const PhongConfig& config);
+
+struct PrincipledConfig {
+  Color base_color{Rgb(0.5f)};
+  float eta = 1.5f;  // not 1
+  Scalar roughness = 0.5f, anisotropic = 0, metallic = 0, spec_trans = 0, spec_tint = 0;
+  Scalar clearcoat = 0, clearcoat_gloss = 0, sheen = 0, sheen_tint = 0, flatness = 0;
+};
+/// Disney's material as in Mitsuba 3's `principled`; all numbers in [0, 1].
+std::unique_ptr<Bsdf> make_principled(const PrincipledConfig& config);
+
+struct CoatingConfig {
+  float eta = 1.5046f / 1.000277f;
+  float thickness = 1;    // in units of 1 / sigma_a
+  Color sigma_a{Rgb(0)};  // absorption
+  Rgb specular_reflectance{1, 1, 1};
+};
+/// `inner` under a smooth dielectric layer; Mitsuba 0.6's `coating`.
+std::unique_ptr<Bsdf> make_coating(const Bsdf& inner, const CoatingConfig& config);
+
+/// What Mitsuba 3 does, and 0.6 does not, where a tilted normal has no meaning.
+struct TiltRepairs {
+  bool mirror = true;  // a normal that faces away from the viewer is mirrored about the surface's
+  bool fade = true;    // light at grazing angles fades
+};
+/// `inner` with its shading normal tilted by a height field: `height` is in scene units, times
+/// `scale`.
+std::unique_ptr<Bsdf> make_bump_map(const Bsdf& inner, Scalar height, float scale,
+                                    TiltRepairs repairs = {});
+/// `inner` with its shading normal given by a texture, (n + 1) / 2 in the frame of the tangents.
+std::unique_ptr<Bsdf> make_normal_map(const Bsdf& inner, Color normals, TiltRepairs repairs = {});
+
+/// (1 - weight) `first` + weight `second`, weight clamped to [0, 1].
+std::unique_ptr<Bsdf> make_blend(const Bsdf& first, const Bsdf& second, Scalar weight);
+struct WeightedBsdf {
+  const Bsdf* bsdf;
+  float weight;
+};
+/// Weighted sum; the weights add up to at most 1.
+std::unique_ptr<Bsdf> make_mixture(std::span<const WeightedBsdf> parts);
 
 /// `front` seen from the front, `back` (flipped) from behind. Neither may transmit.
 std::unique_ptr<Bsdf> make_two_sided(const Bsdf& front, const Bsdf& back);

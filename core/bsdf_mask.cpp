@@ -10,7 +10,9 @@ namespace {
 class Mask final : public Bsdf {
  public:
   Mask(const Bsdf& inner, Color opacity)
-      : Bsdf(inner.lobes(), inner.smooth_transmission(), true), inner_(inner), opacity_(opacity) {}
+      : Bsdf(inner.lobes(), inner.smooth_transmission(), true, inner.needs_tangents()),
+        inner_(inner),
+        opacity_(opacity) {}
 
   Rgb f(const SurfacePoint& at, Vec3 wo, Vec3 wi, Lobes asked, Carried carried) const override {
     return inner_.f(at, wo, wi, asked, carried) * opacity(at);

@@ -15,17 +15,19 @@ namespace {
 class RoughDielectric final : public Bsdf {
  public:
   explicit RoughDielectric(const RoughDielectricConfig& config)
-      : Bsdf(microfacet_lobe(config.alpha), microfacet_lobe(config.alpha) == Lobes::smooth),
+      : Bsdf(config.roughness.lobe(), config.roughness.lobe() == Lobes::smooth, false,
+             !config.roughness.isotropic()),
         dielectric_(config.dielectric),
-        microfacet_(config.kind, config.alpha, config.alpha) {
+        roughness_(config.roughness) {
     OCTOLUX_CHECK(dielectric_.eta > 0 && dielectric_.eta != 1);  // no boundary has no normals
   }
 
-  Rgb f(const SurfacePoint&, Vec3 wo, Vec3 wi, Lobes lobes, Carried carried) const override {
+  Rgb f(const SurfacePoint& at, Vec3 wo, Vec3 wi, Lobes lobes, Carried carried) const override {
     if (wo.z == 0 || wi.z == 0 || !has(lobes)) return Rgb(0);
     const Boundary b = boundary(wo, wi);
     if (!b.visible) return Rgb(0);
-    const float d_g = microfacet_.d(b.m) * microfacet_.g1(wo, b.m) * microfacet_.g1(wi, b.m);
+    const Microfacet microfacet = roughness_.at(at.uv);
+    const float d_g = microfacet.d(b.m) * microfacet.g1(wo, b.m) * microfacet.g1(wi, b.m);
     const float d_g_cos = d_g / std::abs(wo.z * wi.z);
     if (b.reflects) return dielectric_.specular_reflectance * (0.25f * b.reflectance * d_g_cos);
     const float flux = carried == Carried::flux ? b.eta * b.eta : 1.0f;
@@ -33,16 +35,17 @@ class RoughDielectric final : public Bsdf {
     return dielectric_.specular_transmittance * (flux * f);
   }
 
-  float pdf_w(const SurfacePoint&, Vec3 wo, Vec3 wi, Lobes lobes) const override {
+  float pdf_w(const SurfacePoint& at, Vec3 wo, Vec3 wi, Lobes lobes) const override {
     if (wo.z == 0 || wi.z == 0 || !has(lobes)) return 0;
     const Boundary b = boundary(wo, wi);
-    return b.visible ? pdf_w(wo, b) : 0;
+    return b.visible ? pdf_w(roughness_.at(at.uv), wo, b) : 0;
   }
 
-  std::optional<BsdfSample> sample(const SurfacePoint&, Vec3 wo, float u_lobe, Vec2 u, Lobes asked,
-                                   Carried carried) const override {
+  std::optional<BsdfSample> sample(const SurfacePoint& at, Vec3 wo, float u_lobe, Vec2 u,
+                                   Lobes asked, Carried carried) const override {
     if (wo.z == 0 || !has(asked)) return std::nullopt;
-    const Vec3 m = microfacet_.sample_visible(wo.z > 0 ? wo : -wo, u);
+    const Microfacet microfacet = roughness_.at(at.uv);
+    const Vec3 m = microfacet.sample_visible(wo.z > 0 ? wo : -wo, u);
     const float wo_m = dot(wo, m);
     const DielectricFresnel fresnel = fresnel_dielectric(wo_m, dielectric_.eta);
     const bool reflects = u_lobe < fresnel.reflectance;
@@ -51,11 +54,11 @@ class RoughDielectric final : public Bsdf {
 
     const Boundary b = make_boundary(m, wo, wi, eta, fresnel.reflectance, reflects);
     if (!b.visible || (wo.z * wi.z > 0) != reflects) return std::nullopt;
-    const float pdf = pdf_w(wo, b);
+    const float pdf = pdf_w(microfacet, wo, b);
     const float radiance = carried == Carried::radiance ? 1 / (eta * eta) : 1.0f;
     const Rgb colour =
         reflects ? dielectric_.specular_reflectance : dielectric_.specular_transmittance;
-    const Rgb weight = colour * (radiance * microfacet_.g1(wi, m));
+    const Rgb weight = colour * (radiance * microfacet.g1(wi, m));
     if (pdf <= 0 || is_black(weight)) return std::nullopt;
     return BsdfSample{wi, weight, pdf, lobes(), eta};
   }
@@ -97,15 +100,15 @@ class RoughDielectric final : public Bsdf {
   }
 
   /// Density of m, times the choice between reflection and refraction, times dm / dwi.
-  float pdf_w(Vec3 wo, const Boundary& b) const {
+  static float pdf_w(const Microfacet& microfacet, Vec3 wo, const Boundary& b) {
     const Vec3 above = wo.z > 0 ? wo : -wo;
-    const float pdf_m = microfacet_.visible_pdf_w(above, b.m);
+    const float pdf_m = microfacet.visible_pdf_w(above, b.m);
     if (b.reflects) return pdf_m * b.reflectance / (4 * std::abs(b.wo_m));
     return pdf_m * (1 - b.reflectance) * b.eta * b.eta * std::abs(b.wi_m) / b.compression;
   }
 
   DielectricConfig dielectric_;
-  Microfacet microfacet_;
+  Roughness roughness_;
 };
 
 }  // namespace

@@ -10,7 +10,8 @@ constexpr Vec3 flip(Vec3 w) { return {w.x, w.y, -w.z}; }
 class TwoSided final : public Bsdf {
  public:
   TwoSided(const Bsdf& front, const Bsdf& back)
-      : Bsdf(front.lobes() | back.lobes(), false, front.passes_light() || back.passes_light()),
+      : Bsdf(front.lobes() | back.lobes(), false, front.passes_light() || back.passes_light(),
+             front.needs_tangents() || back.needs_tangents()),
         front_(front),
         back_(back) {}
 

@@ -19,6 +19,16 @@ struct Frame {
     return {{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
   }
 
+  /// The same with `s` along the part of `tangent` that is at right angles to `n`, as in Mitsuba;
+  /// any frame where there is none (also for a zero tangent).
+  static Frame from_tangent(Vec3 n, Vec3 tangent) {
+    const Vec3 across = tangent - n * dot(n, tangent);
+    const float l2 = length2(across);
+    if (!(l2 > 0x1p-40f * length2(tangent))) return from_normal(n);
+    const Vec3 s = across / std::sqrt(l2);
+    return {s, cross(n, s), n};
+  }
+
   Vec3 to_local(Vec3 v) const { return {dot(v, s), dot(v, t), dot(v, n)}; }
   Vec3 to_world(Vec3 v) const { return s * v.x + t * v.y + n * v.z; }
 };

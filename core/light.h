@@ -14,6 +14,7 @@
 #include "core/ray.h"
 #include "core/rgb.h"
 #include "core/shape.h"
+#include "core/texture.h"
 
 namespace octolux {
 
@@ -52,7 +53,7 @@ class Light {
   virtual void set_scene_bounds(Vec3 /*center*/, float /*radius*/) {}
 };
 
-/// A shape that emits from its front side, cosine-distributed, with the same radiance everywhere.
+/// A shape that emits from its front side, cosine-distributed; its radiance may be a texture.
 class AreaLight : public Light {
  public:
   /// Radiance leaving `y` (on this light's shape) towards `wo`.
@@ -72,8 +73,21 @@ class EnvironmentLight : public Light {
 };
 
 /// `shape` must outlive the light and stay where it is. Radiance is finite and not negative.
-std::unique_ptr<AreaLight> make_area_light(const Shape& shape, Rgb radiance);
+std::unique_ptr<AreaLight> make_area_light(const Shape& shape, Color radiance);
 std::unique_ptr<Light> make_point_light(Vec3 position, Rgb intensity);  // [W sr^-1]
+/// Parallel light along `direction` (unit); irradiance [W m^-2] of a surface that faces it.
+std::unique_ptr<Light> make_directional_light(Vec3 direction, Rgb irradiance);
+
+struct SpotConfig {
+  Affine to_world;   // the light is at its origin and shines along +z; uneven scales do not count
+  Rgb intensity{1};  // [W sr^-1] on the axis
+  float cutoff = 0.35f;  // angle [rad] beyond which there is no light, in (0, pi / 2)
+  float beam = 0.26f;    // angle up to which it is full, at most `cutoff`; linear in between
+  const Texture* texture = nullptr;  // a slide over the square around the cone; or none
+};
+/// Mitsuba's `spot`.
+std::unique_ptr<Light> make_spot_light(const SpotConfig& config);
+
 std::unique_ptr<EnvironmentLight> make_constant_light(Rgb radiance);
 /// `image` is latitude-longitude as in Mitsuba 3, before `to_world`: the top row is +y, the bottom
 /// row -y; u = 0 (the left edge) is -z, u = 1/4 is +x, u = 1/2 +z, u = 3/4 -x. Of `to_world` only

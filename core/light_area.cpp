@@ -32,10 +32,10 @@ float to_pdf_w(double pdf_a, Vec3 x, const SurfacePoint& y) {
 /// Radiance, and what all area lights do with a point once they have it.
 class EmittingSurface : public AreaLight {
  public:
-  explicit EmittingSurface(Rgb radiance) : radiance_(radiance) {}
+  explicit EmittingSurface(Color radiance) : radiance_(radiance) {}
 
   Rgb radiance(const SurfacePoint& y, Vec3 wo) const final {
-    return dot(y.ng, wo) > 0 ? radiance_ : Rgb(0);
+    return dot(y.ng, wo) > 0 ? radiance_(y.uv) : Rgb(0);
   }
 
  protected:
@@ -44,7 +44,7 @@ class EmittingSurface : public AreaLight {
     s.pdf_w = to_pdf_w(pdf_a, x, y);
     if (!(s.pdf_w > 0) || std::isinf(s.pdf_w)) return std::nullopt;
     s.wi = unit_or(Vec3d(y.position) - Vec3d(x), {0, 0, 1});
-    s.radiance = radiance_;
+    s.radiance = radiance_(y.uv);
     s.at = y;
     return s;
   }
@@ -53,17 +53,31 @@ class EmittingSurface : public AreaLight {
     const Vec3 local = sample_cosine_hemisphere(u_direction);
     const Vec3 direction = normalize(Frame::from_normal(y.ng).to_world(local));
     return {{offset_origin(y.position, y.ng, y.error, direction), direction},
-            radiance_ * static_cast<float>(pi / pdf_a)};
+            radiance_(y.uv) * static_cast<float>(pi / pdf_a)};
   }
 
-  Rgb power_of_area(double area) const { return radiance_ * static_cast<float>(pi * area); }
+  /// pi times the integral of radiance over the area [m^2]; `place` is the surface's point for u in
+  /// the unit square, and `pdf_a` its density. A texture is integrated by 128^2 points.
+  template <class Place, class Density>
+  Rgb power_of(double area, const Place& place, const Density& pdf_a) const {
+    if (radiance_.is_constant()) return radiance_.mean() * static_cast<float>(pi * area);
+    constexpr std::uint32_t n = 128 * 128;
+    double sum[3] = {};
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const SurfacePoint y = place(shifted_hammersley(i, n, {0.5f / n, 0.5f / n}));
+      const Rgb radiance = radiance_(y.uv);
+      for (int c = 0; c < 3; ++c) sum[c] += static_cast<double>(radiance[c]) / pdf_a(y);
+    }
+    return {static_cast<float>(sum[0] * pi / n), static_cast<float>(sum[1] * pi / n),
+            static_cast<float>(sum[2] * pi / n)};
+  }
 
-  const Rgb radiance_;  // [W m^-2 sr^-1]
+  const Color radiance_;  // [W m^-2 sr^-1]
 };
 
 class MeshLight final : public EmittingSurface {
  public:
-  MeshLight(const TriangleMesh& mesh, Rgb radiance) : EmittingSurface(radiance), mesh_(mesh) {
+  MeshLight(const TriangleMesh& mesh, Color radiance) : EmittingSurface(radiance), mesh_(mesh) {
     std::vector<double> areas;
     areas.reserve(mesh.triangles.size());
     for (const auto& [a, b, c] : mesh.triangles) {
@@ -72,6 +86,11 @@ class MeshLight final : public EmittingSurface {
       areas.push_back(length(normal) / 2);
     }
     triangles_ = Distribution1D(areas);
+    if (!dark()) {
+      power_ = power_of(
+          area(), [this](Vec2 u) { return point(u); },
+          [this](const SurfacePoint&) { return 1 / area(); });
+    }
   }
 
   std::optional<LightSample> sample(Vec3 x, Vec2 u) const override {
@@ -84,7 +103,7 @@ class MeshLight final : public EmittingSurface {
     return emit_from(point(u_position), 1 / area(), u_direction);
   }
 
-  Rgb power() const override { return power_of_area(area()); }
+  Rgb power() const override { return power_; }
 
   float pdf_w(Vec3 x, const SurfacePoint& y) const override {
     return dark() ? 0 : to_pdf_w(1 / area(), x, y);
@@ -92,7 +111,7 @@ class MeshLight final : public EmittingSurface {
 
  private:
   double area() const { return triangles_.total(); }
-  bool dark() const { return area() == 0 || is_black(radiance_); }
+  bool dark() const { return area() == 0 || is_black(radiance_.mean()); }
 
   SurfacePoint point(Vec2 u) const {
     const Distribution1D::Sample triangle = triangles_.sample(u.x);
@@ -102,6 +121,7 @@ class MeshLight final : public EmittingSurface {
 
   const TriangleMesh& mesh_;
   Distribution1D triangles_;  // by area [m^2]
+  Rgb power_;
 };
 
 /// The cone under which a sphere is seen from outside it.
@@ -115,7 +135,7 @@ struct Cone {
 
 class QuadricLight final : public EmittingSurface {
  public:
-  QuadricLight(const Shape& shape, const Quadric& quadric, Rgb radiance)
+  QuadricLight(const Shape& shape, const Quadric& quadric, Color radiance)
       : EmittingSurface(radiance), quadric_(quadric), area_(octolux::area(shape)) {
     const Affine& a = quadric.to_world;
     for (int j = 0; j < 3; ++j) columns_[j] = {a.m[0][j], a.m[1][j], a.m[2][j]};
@@ -123,6 +143,11 @@ class QuadricLight final : public EmittingSurface {
     volume_ = std::abs(dot(columns_[0], cross(columns_[1], columns_[2])));
     const bool sphere = quadric.kind == Quadric::Kind::sphere;
     if (sphere && !quadric.flip && is_similarity()) radius_ = std::cbrt(volume_);
+    if (!dark()) {
+      power_ = power_of(
+          area_, [this](Vec2 u) { return point(u); },
+          [this](const SurfacePoint& y) { return pdf_a(y); });
+    }
   }
 
   std::optional<LightSample> sample(Vec3 x, Vec2 u) const override {
@@ -138,7 +163,7 @@ class QuadricLight final : public EmittingSurface {
     return emit_from(y, pdf_a(y), u_direction);
   }
 
-  Rgb power() const override { return power_of_area(area_); }
+  Rgb power() const override { return power_; }
 
   float pdf_w(Vec3 x, const SurfacePoint& y) const override {
     if (dark()) return 0;
@@ -149,7 +174,7 @@ class QuadricLight final : public EmittingSurface {
   }
 
  private:
-  bool dark() const { return !(area_ > 0) || !(volume_ > 0) || is_black(radiance_); }
+  bool dark() const { return !(area_ > 0) || !(volume_ > 0) || is_black(radiance_.mean()); }
 
   /// Are A's columns orthogonal and equally long, to the precision of numbers in scene files?
   bool is_similarity() const {
@@ -215,9 +240,9 @@ class QuadricLight final : public EmittingSurface {
 
     LightSample s;
     s.wi = unit_or(cone.axis * cosine + across * std::sqrt(sine2), to_float(cone.axis));
-    s.radiance = radiance_;
     s.pdf_w = static_cast<float>(cone.pdf_w());
     s.at = surface_point(quadric_, to_float(transposed(normal) * (1 / radius_)));
+    s.radiance = radiance_(s.at.uv);
     return s;
   }
 
@@ -226,12 +251,13 @@ class QuadricLight final : public EmittingSurface {
   Vec3d center_;
   double volume_ = 0;  // |det A|
   double area_ = 0;    // [m^2]
+  Rgb power_;
   double radius_ = 0;  // [m] of a sphere that is sampled by solid angle; otherwise 0
 };
 
 }  // namespace
 
-std::unique_ptr<AreaLight> make_area_light(const Shape& shape, Rgb radiance) {
+std::unique_ptr<AreaLight> make_area_light(const Shape& shape, Color radiance) {
   if (const auto* quadric = std::get_if<Quadric>(&shape.geometry)) {
     return std::make_unique<QuadricLight>(shape, *quadric, radiance);
   }

@@ -155,6 +155,22 @@ SurfacePoint surface_point(const Quadric& quadric, Vec3 object_position) {
   return point;
 }
 
+Tangents tangents(const Quadric& quadric, Vec3 object_position) {
+  const Vec3d p = reproject(quadric.kind, Vec3d(object_position));
+  const double r = std::hypot(p.x, p.y);
+  const Vec3d outwards = r > 0 ? Vec3d{p.x / r, p.y / r, 0} : Vec3d{1, 0, 0};
+  const Vec3d around = Vec3d{-p.y, p.x, 0} * kTwoPi;
+  const auto world = [&](Vec3d v) { return to_float(map_vector(quadric.to_world, v)); };
+  switch (quadric.kind) {
+    case Quadric::Kind::sphere:
+      return {world(around), world((outwards * p.z + Vec3d{0, 0, -r}) * std::numbers::pi)};
+    case Quadric::Kind::disk:
+      return {world(outwards), world(around)};
+    default:
+      return {world(around), world({0, 0, 1})};
+  }
+}
+
 Bounds bounds(const Quadric& quadric) {
   const Affine& a = quadric.to_world;
   const bool sphere = quadric.kind == Quadric::Kind::sphere;

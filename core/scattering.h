@@ -21,7 +21,7 @@ class Scattering {
   Scattering(const SurfacePoint& point, const Bsdf& bsdf, Vec3 wo, Carried carried)
       : point_(point),
         bsdf_(bsdf),
-        frame_(Frame::from_normal(point.ns)),
+        frame_(Frame::from_tangent(point.ns, point.dp_du)),
         wo_(wo),
         wo_local_(frame_.to_local(wo)),
         wo_ng_(dot(wo, point.ng)),
@@ -43,6 +43,14 @@ class Scattering {
   /// f |cos wi|, as next-event estimation wants it.
   Rgb f_cos(Vec3 wi, Lobes lobes) const { return f(wi, lobes) * std::abs(dot(wi, point_.ns)); }
 
+  /// Radiance per arriving flux density, for density estimation: photons lie as densely as the
+  /// geometric cosine has them, while an eye path weighs them by the shading one.
+  Rgb f_flux(Vec3 wi, Lobes lobes) const {
+    const Rgb value = f(wi, lobes);
+    if (point_.ns == point_.ng) return value;
+    return value * std::abs(dot(wi, point_.ns) / dot(wi, point_.ng));
+  }
+
   float pdf_w(Vec3 wi, Lobes lobes) const {
     return bsdf_.pdf_w(point_, wo_local_, frame_.to_local(wi), lobes);
   }
@@ -59,7 +67,9 @@ class Scattering {
   }
 
   Rgb pass_through() const { return bsdf_.pass_through(point_, wo_local_); }
+  /// Empty also where the normals differ: then directions matter (f_flux).
   std::optional<Rgb> lambertian() const {
+    if (!(point_.ns == point_.ng)) return std::nullopt;
     return wo_ng_ * wo_local_.z > 0 ? bsdf_.lambertian(point_, wo_local_) : std::nullopt;
   }
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "core/frame.h"
 #include "core/quadric.h"
 #include "core/ray.h"
 #include "core/vec3d.h"
@@ -78,8 +79,25 @@ SurfacePoint surface_point(const TriangleMesh& mesh, std::uint32_t primitive, fl
   point.error = position_error_bound(max(abs(p0), max(abs(p1), abs(p2)))) +
                 static_cast<float>(plane_error(edges));
   set_normals(mesh, corner, edges.face, {u, v}, point);
-  point.uv = mesh.uvs.empty() ? Vec2{u, v} : interpolate(mesh.uvs, corner, u, v);
+  const Vec2 uv = mesh.uvs.empty() ? Vec2{u, v} : interpolate(mesh.uvs, corner, u, v);
+  point.uv = TexturePoint(uv, mesh, primitive, {u, v});
   return point;
+}
+
+Tangents tangents(const TriangleMesh& mesh, std::uint32_t primitive) {
+  const Corners& corner = mesh.triangles[primitive];
+  const Edges edges(mesh, corner);
+  if (!mesh.uvs.empty()) {
+    const Vec2 a = mesh.uvs[corner[1]] - mesh.uvs[corner[0]];
+    const Vec2 b = mesh.uvs[corner[2]] - mesh.uvs[corner[0]];
+    const double determinant = double{a.x} * b.y - double{a.y} * b.x;
+    if (determinant != 0) {
+      return {to_float((edges.a * b.y - edges.b * a.y) * (1 / determinant)),
+              to_float((edges.b * a.x - edges.a * b.x) * (1 / determinant))};
+    }
+  }
+  const Frame frame = Frame::from_normal(unit_or(edges.face, {0, 0, 1}));
+  return {frame.s, frame.t};
 }
 
 Bounds bounds(const Shape& shape) {

@@ -26,6 +26,15 @@ enum class SpectrumKind {
 /// that Rec.709 cannot show have a negative component).
 Rgb spectrum_to_rgb(std::span<const SpectrumSample> samples, SpectrumKind kind);
 
+/// A sampled spectrum at `wavelength` [nm]: linear in between, zero outside its range.
+double interpolate_spectrum(std::span<const SpectrumSample> samples, double wavelength);
+
+/// Radiance of a black body [W m^-2 sr^-1 nm^-1] (Planck 1900); temperature [K].
+Rgb blackbody_radiance(double temperature);
+
+/// CIE XYZ to linear Rec.709 with D65 white.
+Rgb xyz_to_rec709(double x, double y, double z);
+
 /// One sRGB component (IEC 61966-2-1) made linear.
 float srgb_to_linear(float encoded);
 

@@ -12,12 +12,20 @@ class CheckerboardTexture final : public Texture {
   CheckerboardTexture(Rgb color0, Rgb color1, const Affine& to_uv)
       : color0_(color0), color1_(color1), to_uv_(to_uv) {}
 
-  Rgb eval(Vec2 uv) const override {
+  Rgb eval(const TexturePoint& uv) const override {
     const Vec3 p = to_uv_.point({uv.x, uv.y, 1});
     return upper_half(p.x) == upper_half(p.y) ? color0_ : color1_;
   }
 
+  /// Where numbers are wanted, Mitsuba exchanges the colours, and its scenes rely on that.
+  float number(const TexturePoint& uv) const override {
+    return luminance(color0_ + color1_ - eval(uv));
+  }
+
   Rgb mean() const override { return (color0_ + color1_) * 0.5f; }
+  float maximum() const override {
+    return std::max(max_component(color0_), max_component(color1_));
+  }
 
  private:
   static bool upper_half(float x) { return x - std::floor(x) > 0.5f; }

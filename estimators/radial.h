@@ -51,7 +51,7 @@ Estimate radial_sum(const GatherPoint& at, const PhotonMap& map, const Disc& dis
   for (const Neighbour& near : disc.photons) {
     if (!(near.distance2 < disc.h2)) continue;
     const Rgb flux = map.flux(near.photon) * kernel.k(near.distance2 * inv_h2);
-    total += lambertian ? flux : flux * at.at.f(map.wi(near.photon), Lobes::smooth);
+    total += lambertian ? flux : flux * at.at.f_flux(map.wi(near.photon), Lobes::smooth);
     ++count;
   }
   const Rgb scale = lambertian ? *lambertian * kInvPi : Rgb(1);

@@ -57,7 +57,7 @@ struct Scan {
     std::string place;
     std::set<std::string> given;
     std::set<std::string> grey;  // colours written as a single number, which means all three
-    std::vector<std::pair<std::string, std::string>> maps;
+    std::vector<MtlMap> maps;
   };
   std::map<std::string, Entry> entries;        // by name; the first of a name counts
   std::map<std::string, std::string> unknown;  // key, place where it first occurs
@@ -79,9 +79,16 @@ void scan_statement(const std::string& line, const std::string& place, Scan& sca
     number(words, 1, place);
   } else if (contains(kMaps, key)) {
     std::string name;
-    tinyobj::texture_option_t options;
+    tinyobj::texture_option_t options{};
+    options.scale[0] = options.scale[1] = options.scale[2] = options.bump_multiplier = 1;
     tinyobj::ParseTextureNameAndOption(&name, &options, line.substr(key.size()).c_str());
-    entry.maps.emplace_back(key, name);
+    const auto& [u, v, w] = options.scale;
+    entry.maps.push_back({.key = key,
+                          .file = name,
+                          .scale = {u, v},
+                          .offset = {options.origin_offset[0], options.origin_offset[1]},
+                          .clamp = options.clamp,
+                          .bump = options.bump_multiplier});
   } else {
     scan.unknown.try_emplace(key, place);
   }

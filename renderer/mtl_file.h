@@ -10,8 +10,17 @@
 #include <vector>
 
 #include "core/rgb.h"
+#include "core/vec.h"
 
 namespace octolux {
+
+/// A texture map: its statement's key and file, and those of its options that we know.
+struct MtlMap {
+  std::string key, file;
+  Vec2 scale{1, 1}, offset{0, 0};  // -s, -o: applied to texture coordinates in this order
+  bool clamp = false;              // -clamp on
+  float bump = 1;                  // -bm
+};
 
 /// One `newmtl`. Colours are linear, as written; not negative, perhaps above 1.
 struct MtlMaterial {
@@ -19,12 +28,12 @@ struct MtlMaterial {
   std::string place;            // "path:line" of its newmtl
   std::set<std::string> given;  // keys that occur
   Rgb kd, ks, ke;
-  Rgb tf;                                                 // 0 if not given
-  float ns = 1;                                           // at least 0
-  float ni = 1;                                           // above 0
-  float opacity = 1;                                      // d, or 1 - Tr; in [0, 1]
-  int illum = -1;                                         // -1: not given
-  std::vector<std::pair<std::string, std::string>> maps;  // key and file name of texture maps
+  Rgb tf;             // 0 if not given
+  float ns = 1;       // at least 0
+  float ni = 1;       // above 0
+  float opacity = 1;  // d, or 1 - Tr; in [0, 1]
+  int illum = -1;     // -1: not given
+  std::vector<MtlMap> maps;
 };
 
 struct MtlFile {

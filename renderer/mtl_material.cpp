@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/bsdf_makers.h"
+#include "renderer/mtl_textures.h"
 
 namespace octolux {
 namespace {
@@ -53,7 +54,16 @@ int add_glass(const MtlMaterial& m, Scene& scene) {
   return add(make_dielectric(config), scene);
 }
 
-Rgb diffuse_colour(const MtlMaterial& m, Scene& scene) {
+/// Kd times map_Kd. A black Kd beside a map is an exporter's way of leaving it out.
+Color diffuse_colour(const MtlMaterial& m, Scene& scene) {
+  if (const Texture* map = load_map(m, {"map_Kd"}, MtlMapUse::colour, scene)) {
+    if (map->maximum() > 1) {
+      scene.textures.push_back(make_clamped_texture(*map));
+      map = scene.textures.back().get();
+    }
+    const bool bare = !m.given.contains("Kd") || is_black(m.kd);
+    return Color(*map, bare ? Rgb(1) : reflectance(m.kd, "Kd", m, scene));
+  }
   if (m.given.contains("map_Kd") && !m.given.contains("Kd")) return Rgb(kDefaultGrey);
   if (!says_nothing(m)) return reflectance(m.kd, "Kd", m, scene);
   scene.warnings.push_back(
@@ -96,14 +106,21 @@ MtlKind kind(const MtlMaterial& m) {
 }
 
 int add_bsdf(const MtlMaterial& m, Scene& scene) {
-  for (const auto& [key, name] : m.maps) {
-    scene.warnings.push_back(
-        fmt::format("{}: material '{}': texture map ignored: {} {}", m.place, m.name, key, name));
-  }
-  if (kind(m) == MtlKind::glass) return add_glass(m, scene);
-  const int surface = add_opaque(m, scene);
-  if (opaque(m)) return surface;
-  return add(make_mask(*scene.bsdfs[static_cast<std::size_t>(surface)], Rgb(m.opacity)), scene);
+  warn_of_other_maps(m, scene);
+  if (kind(m) == MtlKind::glass) return add_relief(m, add_glass(m, scene), scene);
+  const int surface = add_relief(m, add_opaque(m, scene), scene);
+  const Texture* map = load_map(m, {"map_d"}, MtlMapUse::data, scene);
+  if (opaque(m) && !map) return surface;
+  const Rgb opacity(m.opacity);
+  return add(make_mask(*scene.bsdfs[static_cast<std::size_t>(surface)],
+                       map ? Color(*map, opacity) : Color(opacity)),
+             scene);
+}
+
+Color emission(const MtlMaterial& m, Scene& scene) {
+  const Texture* map = load_map(m, {"map_Ke"}, MtlMapUse::colour, scene);
+  if (!map) return m.ke;
+  return Color(*map, is_black(m.ke) ? Rgb(1) : m.ke);
 }
 
 int add_default_bsdf(Scene& scene) { return add_two_sided(make_diffuse(Rgb(kDefaultGrey)), scene); }

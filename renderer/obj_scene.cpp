@@ -112,7 +112,7 @@ class SceneBuilder {
     const auto found = materials_.find(material);
     if (found != materials_.end()) {
       shape.bsdf = add_bsdf(found->second, scene_);
-      emission_.push_back(found->second.ke);
+      emission_.push_back(emission(found->second, scene_));
     } else {
       shape.bsdf = default_bsdf(material);
       emission_.push_back(Rgb(0));
@@ -134,7 +134,7 @@ class SceneBuilder {
     Bounds all;
     for (const Shape& shape : scene_.shapes) all.add(bounds(shape));
     for (std::size_t i = 0; i < scene_.shapes.size(); ++i) {
-      if (is_black(emission_[i])) continue;
+      if (is_black(emission_[i].mean())) continue;
       Shape& shape = scene_.shapes[i];
       const std::size_t turned = face_point(std::get<TriangleMesh>(shape.geometry), all.center());
       if (turned > 0) {
@@ -153,7 +153,7 @@ class SceneBuilder {
   MaterialTable materials_;
   ObjMeshBuilder mesh_builder_;
   Scene& scene_;
-  std::vector<Rgb> emission_;  // radiance [W m^-2 sr^-1] of each shape
+  std::vector<Color> emission_;  // radiance [W m^-2 sr^-1] of each shape
   std::size_t degenerate_ = 0;
   int default_bsdf_ = -1;
 };

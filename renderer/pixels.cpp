@@ -87,7 +87,8 @@ SampleGrid trace_grid(const Scene& scene, PassKey key, std::uint64_t number,
     const std::size_t pixel = static_cast<std::size_t>(y) * grid.width + x;
     Tracer tracer(scene, Rng(key.seed, Stream::eye, number, pixel));
     const Vec2 corner{static_cast<float>(x), static_cast<float>(y)};
-    grid.samples[pixel] = path(tracer, scene.camera.ray(corner + grid.offset));
+    const Vec2 lens = scene.camera.has_lens() ? tracer.rng.uniform2() : Vec2{0.5f, 0.5f};
+    grid.samples[pixel] = path(tracer, scene.camera.ray(corner + grid.offset, lens));
     rays.fetch_add(tracer.rays(), std::memory_order_relaxed);
   });
   pass.rays += rays;

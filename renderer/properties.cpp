@@ -104,7 +104,7 @@ std::optional<Vec3> Properties::point(const std::string& name) {
 }
 
 std::optional<Rgb> Properties::color(const std::string& name, ColorRole role) {
-  const XmlNode* found = value(name, {"rgb", "spectrum", "srgb", "color", "float"});
+  const XmlNode* found = value(name, {"rgb", "spectrum", "srgb", "color", "blackbody", "float"});
   if (!found) return std::nullopt;
   return parse_color(*found, role);
 }
@@ -144,6 +144,14 @@ std::vector<const XmlNode*> Properties::objects(const std::string& tag) {
 
 void Properties::ignore(std::initializer_list<const char*> names) {
   for (const char* name : names) entry(name);
+}
+
+bool Properties::take(const std::string& name) {
+  for (Entry& e : entries_) {
+    if (e.name != name || e.used) continue;
+    return e.used = true;
+  }
+  return false;
 }
 
 void Properties::ignore_rest() {

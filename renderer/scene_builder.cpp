@@ -6,6 +6,7 @@
 #include "core/bsdf_makers.h"
 #include "core/file_io.h"
 #include "core/hash.h"
+#include "renderer/xml_extras.h"
 #include "renderer/xml_objects.h"
 
 namespace octolux {
@@ -16,12 +17,17 @@ SceneBuilder::SceneBuilder(const XmlDocument& document, Scene& scene)
   for (const std::string& text : document.warnings()) warn(text);
 }
 
+bool SceneBuilder::old_dialect() const {
+  const std::string* version = document_.root().attribute("version");
+  return version && version->starts_with("0.");
+}
+
 int SceneBuilder::bsdf(const XmlNode& object) {
   const auto known = bsdfs_.find(&object);
   if (known != bsdfs_.end()) return known->second;
   Properties properties(object);
   std::unique_ptr<Bsdf> made = make_bsdf(properties, *this);
-  properties.finish();
+  finish(properties);
   scene_.bsdfs.push_back(std::move(made));
   return bsdfs_[&object] = static_cast<int>(scene_.bsdfs.size()) - 1;
 }
@@ -39,7 +45,7 @@ const Texture& SceneBuilder::texture(const XmlNode& object) {
   if (known != textures_.end()) return *known->second;
   Properties properties(object);
   std::unique_ptr<Texture> made = make_texture(properties, *this);
-  properties.finish();
+  finish(properties);
   scene_.textures.push_back(std::move(made));
   textures_[&object] = scene_.textures.back().get();
   return *scene_.textures.back();
@@ -47,8 +53,28 @@ const Texture& SceneBuilder::texture(const XmlNode& object) {
 
 Color SceneBuilder::color(Properties& properties, const std::string& name, float fallback) {
   const XmlNode* node = properties.find(name);
-  if (node && node->object().tag == "texture") return Color(texture(node->object()));
+  if (node && node->object().tag == "texture") {
+    return Color(reflectance_texture(node->object(), properties.where(name)));
+  }
   return constant_color(properties, name, fallback);
+}
+
+const Texture& SceneBuilder::reflectance_texture(const XmlNode& object, const Location& where) {
+  const Texture& plain = texture(object);
+  if (plain.maximum() <= 1) return plain;
+  const Texture*& clamped = clamped_[&plain];
+  if (!clamped) {
+    warn(where, "the texture has values above 1; clamped");
+    scene_.textures.push_back(make_clamped_texture(plain));
+    clamped = scene_.textures.back().get();
+  }
+  return *clamped;
+}
+
+Scalar SceneBuilder::scalar(Properties& properties, const std::string& name, float fallback) {
+  const XmlNode* node = properties.find(name);
+  if (node && node->object().tag == "texture") return Scalar(texture(node->object()));
+  return properties.number(name).value_or(fallback);
 }
 
 Rgb SceneBuilder::constant_color(Properties& properties, const std::string& name, float fallback) {
@@ -58,14 +84,32 @@ Rgb SceneBuilder::constant_color(Properties& properties, const std::string& name
   return {std::min(c.r, 1.0f), std::min(c.g, 1.0f), std::min(c.b, 1.0f)};
 }
 
-std::string SceneBuilder::file(Properties& properties, const std::string& name) {
+std::string SceneBuilder::find_file(Properties& properties, const std::string& name) {
   const std::optional<std::string> given = properties.text(name);
   if (!given) properties.fail(name, "the parameter '" + name + "' is missing");
-  std::string path = document_.find_file(*given, properties.where(name));
+  const FoundFile found = document_.find_file(*given, properties.where(name));
+  if (found.differs) {
+    warn(properties.where(name), "there is no '" + *given + "'; '" + found.path + "' is used");
+  }
+  return found.path;
+}
+
+bool SceneBuilder::has_file(Properties& properties, const std::string& name) const {
+  const std::optional<std::string> given = properties.text(name);
+  return !given || document_.has_file(*given, properties.where(name));
+}
+
+std::string SceneBuilder::file(Properties& properties, const std::string& name) {
+  std::string path = find_file(properties, name);
   if (hashed_files_.insert(path).second) {
     scene_.hash = hash_bytes(scene_.hash, read_file(path));
   }
   return path;
+}
+
+void SceneBuilder::finish(Properties& properties) {
+  ignore_extras(properties, *this);
+  properties.finish();
 }
 
 void SceneBuilder::warn(const std::string& text) {
@@ -75,6 +119,11 @@ void SceneBuilder::warn(const std::string& text) {
 
 void SceneBuilder::warn(const Location& where, const std::string& text) {
   warn(where.file + ":" + std::to_string(where.line) + ": " + text);
+}
+
+void SceneBuilder::warn_once(const std::string& kind, const Location& where,
+                             const std::string& text) {
+  if (warned_.insert(kind).second) warn(where, text);
 }
 
 }  // namespace octolux

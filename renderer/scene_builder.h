@@ -17,6 +17,8 @@ class SceneBuilder {
   SceneBuilder(const XmlDocument& document, Scene& scene);
 
   Scene& scene() { return scene_; }
+  /// Is the file written for Mitsuba 0.x?
+  bool old_dialect() const;
 
   /// Index of this <bsdf> in Scene::bsdfs; made once.
   int bsdf(const XmlNode& object);
@@ -30,18 +32,33 @@ class SceneBuilder {
   /// The same where a texture is not modelled.
   Rgb constant_color(Properties& properties, const std::string& name, float fallback);
 
-  /// Path of the file that the string parameter `name` (required) gives; part of the hash.
+  /// A number that a texture may give.
+  Scalar scalar(Properties& properties, const std::string& name, float fallback);
+
+  /// Path of the file that the string parameter `name` (required) gives.
+  std::string find_file(Properties& properties, const std::string& name);
+  /// False if the parameter is there, and the file is not.
+  bool has_file(Properties& properties, const std::string& name) const;
+  /// As find_file; its content becomes part of the hash.
   std::string file(Properties& properties, const std::string& name);
+
+  /// As properties.finish(), after what exporters add is ignored with a warning (xml_extras.h).
+  void finish(Properties& properties);
 
   void warn(const std::string& text);
   void warn(const Location& where, const std::string& text);
+  /// Nothing if there was a warning of this `kind` already.
+  void warn_once(const std::string& kind, const Location& where, const std::string& text);
 
  private:
   const XmlDocument& document_;
+  const Texture& reflectance_texture(const XmlNode& object, const Location& where);
+
   Scene& scene_;
   std::map<const XmlNode*, int> bsdfs_;
   std::map<const XmlNode*, const Texture*> textures_;
-  std::set<std::string> hashed_files_;
+  std::map<const Texture*, const Texture*> clamped_;
+  std::set<std::string> hashed_files_, warned_;
   int default_bsdf_ = -1;
 };
 

@@ -14,6 +14,7 @@ std::optional<SurfaceHit> Tracer::next(Ray ray, Rgb& weight, int& segments) {
     const Bsdf& bsdf = scene_.bsdf(hit->shape);
     SurfaceHit surface{scene_.caster->surface(*hit), &bsdf, scene_.area_light_of_shape[hit->shape],
                        distance};
+    if (bsdf.needs_tangents()) scene_.caster->add_tangents(*hit, surface.point);
     if (!bsdf.passes_light()) return surface;
 
     const Scattering at(surface.point, bsdf, -ray.direction, Carried::radiance);

@@ -1,4 +1,7 @@
 // <bsdf>: names, parameters and defaults of Mitsuba's surface plug-ins that we model.
+#include "renderer/xml_bsdfs.h"
+
+#include <cmath>
 #include <memory>
 #include <string>
 
@@ -11,8 +14,6 @@ namespace {
 
 using Made = std::unique_ptr<Bsdf>;
 
-// ---- parameters several plug-ins share
-
 /// An index of refraction: a number or the name of a material.
 float read_ior(Properties& p, const std::string& name, const char* fallback) {
   const XmlNode* node = p.find(name);
@@ -23,11 +24,16 @@ float read_ior(Properties& p, const std::string& name, const char* fallback) {
   return *ior;
 }
 
-/// Interior index over exterior index.
+}  // namespace
+
 float read_eta(Properties& p, const char* interior) {
   const float inside = read_ior(p, "int_ior", interior);
   return inside / read_ior(p, "ext_ior", "air");
 }
+
+namespace {
+
+// ---- parameters several plug-ins share
 
 float read_alpha(Properties& p, const std::string& name, float fallback) {
   const XmlNode* node = p.find(name);
@@ -37,10 +43,29 @@ float read_alpha(Properties& p, const std::string& name, float fallback) {
   return p.positive(name, fallback);
 }
 
+Scalar read_alpha_or_texture(Properties& p, SceneBuilder& b, const std::string& name,
+                             Scalar fallback) {
+  const XmlNode* node = p.find(name);
+  if (!node) return fallback;
+  if (node->object().tag == "texture") return b.scalar(p, name, 0);
+  return p.positive(name, 0);
+}
+
 MicrofacetKind read_distribution(Properties& p) {
   p.ignore({"sample_visible"});
   return p.choice("distribution", {"beckmann", "ggx"}) == "ggx" ? MicrofacetKind::ggx
                                                                 : MicrofacetKind::beckmann;
+}
+
+/// 'alpha', or 'alpha_u' and 'alpha_v'.
+Roughness read_roughness(Properties& p, SceneBuilder& b) {
+  if ((p.find("alpha_u") || p.find("alpha_v")) && p.find("alpha")) {
+    p.fail("alpha", "give either 'alpha' or 'alpha_u' and 'alpha_v'");
+  }
+  const Scalar alpha = read_alpha_or_texture(p, b, "alpha", 0.1f);
+  return {.kind = read_distribution(p),
+          .alpha_u = read_alpha_or_texture(p, b, "alpha_u", alpha),
+          .alpha_v = read_alpha_or_texture(p, b, "alpha_v", alpha)};
 }
 
 DielectricConfig read_dielectric(Properties& p, SceneBuilder& b) {
@@ -83,16 +108,6 @@ PlasticConfig read_plastic(Properties& p, SceneBuilder& b) {
           .nonlinear = p.boolean("nonlinear").value_or(false)};
 }
 
-/// The nested <bsdf>s, at least one and at most `most`.
-std::vector<const XmlNode*> read_nested(Properties& p, std::size_t most) {
-  std::vector<const XmlNode*> nested = p.objects("bsdf");
-  if (nested.empty() || nested.size() > most) {
-    fail(p.node().where, "bsdf '" + p.type() + "' needs " + (most > 1 ? "one or two" : "one") +
-                             " nested <bsdf>; there are " + std::to_string(nested.size()));
-  }
-  return nested;
-}
-
 // ---- one maker per plug-in
 
 Made diffuse(Properties& p, SceneBuilder& b) {
@@ -107,8 +122,7 @@ Made thin_dielectric(Properties& p, SceneBuilder& b) {
 
 Made rough_dielectric(Properties& p, SceneBuilder& b) {
   const RoughDielectricConfig config{.dielectric = read_dielectric(p, b),
-                                     .kind = read_distribution(p),
-                                     .alpha = read_alpha(p, "alpha", 0.1f)};
+                                     .roughness = read_roughness(p, b)};
   if (config.dielectric.eta == 1) {
     p.fail("int_ior", "a roughdielectric needs different 'int_ior' and 'ext_ior'");
   }
@@ -118,15 +132,8 @@ Made rough_dielectric(Properties& p, SceneBuilder& b) {
 Made conductor(Properties& p, SceneBuilder& b) { return make_conductor(read_conductor(p, b)); }
 
 Made rough_conductor(Properties& p, SceneBuilder& b) {
-  const bool anisotropic = p.find("alpha_u") || p.find("alpha_v");
-  if (anisotropic && p.find("alpha")) {
-    p.fail("alpha", "give either 'alpha' or 'alpha_u' and 'alpha_v'");
-  }
-  const float alpha = read_alpha(p, "alpha", 0.1f);
-  return make_rough_conductor({.conductor = read_conductor(p, b),
-                               .kind = read_distribution(p),
-                               .alpha_u = read_alpha(p, "alpha_u", alpha),
-                               .alpha_v = read_alpha(p, "alpha_v", alpha)});
+  return make_rough_conductor(
+      {.conductor = read_conductor(p, b), .roughness = read_roughness(p, b)});
 }
 
 Made plastic(Properties& p, SceneBuilder& b) { return make_plastic(read_plastic(p, b)); }
@@ -137,21 +144,39 @@ Made rough_plastic(Properties& p, SceneBuilder& b) {
                              .alpha = read_alpha(p, "alpha", 0.1f)});
 }
 
-Made two_sided(Properties& p, SceneBuilder& b) {
-  const std::vector<const XmlNode*> nested = read_nested(p, 2);
-  for (const XmlNode* object : nested) {
-    const std::string& type = object->required("type");
-    if (type.find("dielectric") != std::string::npos || type == "mask") {
-      fail(object->where, "a twosided bsdf cannot hold a '" + type + "', which lets light through");
-    }
-  }
-  const int front = b.bsdf(*nested.front()), back = b.bsdf(*nested.back());
-  return make_two_sided(*b.scene().bsdfs[front], *b.scene().bsdfs[back]);
+Made phong(Properties& p, SceneBuilder& b) {
+  return make_phong({.diffuse_reflectance = b.color(p, "diffuse_reflectance", 0.5f),
+                     .specular_reflectance = b.color(p, "specular_reflectance", 0.2f),
+                     .exponent = b.scalar(p, "exponent", 30)});
 }
 
-Made mask(Properties& p, SceneBuilder& b) {
-  const int inner = b.bsdf(*read_nested(p, 1).front());
-  return make_mask(*b.scene().bsdfs[inner], b.color(p, "opacity", 0.5f));
+/// 'eta', or 'specular', which stands for the reflectance at normal incidence over 0.08.
+float read_principled_eta(Properties& p) {
+  if (p.find("eta") && p.find("specular")) p.fail("eta", "give either 'eta' or 'specular'");
+  const float specular = p.number("specular").value_or(0.5f);
+  if (!(specular >= 0 && specular <= 1)) {
+    p.fail("specular", "'specular' must lie between 0 and 1");
+  }
+  const float from_specular = 2 / (1 - std::sqrt(0.08f * std::max(specular, 1e-3f))) - 1;
+  const float eta = p.find("eta") ? p.positive("eta", 1) : from_specular;
+  return eta == 1 ? 1.001f : eta;  // as in Mitsuba: equal indices have no boundary
+}
+
+Made principled(Properties& p, SceneBuilder& b) {
+  p.ignore({"main_specular_sampling_rate", "clearcoat_sampling_rate",
+            "diffuse_reflectance_sampling_rate"});
+  return make_principled({.base_color = b.color(p, "base_color", 0.5f),
+                          .eta = read_principled_eta(p),
+                          .roughness = b.scalar(p, "roughness", 0.5f),
+                          .anisotropic = b.scalar(p, "anisotropic", 0),
+                          .metallic = b.scalar(p, "metallic", 0),
+                          .spec_trans = b.scalar(p, "spec_trans", 0),
+                          .spec_tint = b.scalar(p, "spec_tint", 0),
+                          .clearcoat = b.scalar(p, "clearcoat", 0),
+                          .clearcoat_gloss = b.scalar(p, "clearcoat_gloss", 0),
+                          .sheen = b.scalar(p, "sheen", 0),
+                          .sheen_tint = b.scalar(p, "sheen_tint", 0),
+                          .flatness = b.scalar(p, "flatness", 0)});
 }
 
 constexpr Plugin<Made (*)(Properties&, SceneBuilder&)> kPlugins[] = {
@@ -163,8 +188,16 @@ constexpr Plugin<Made (*)(Properties&, SceneBuilder&)> kPlugins[] = {
     {"roughconductor", rough_conductor},
     {"plastic", plastic},
     {"roughplastic", rough_plastic},
-    {"twosided", two_sided},
-    {"mask", mask},
+    {"phong", phong},
+    {"principled", principled},
+    {"twosided", make_two_sided_bsdf},
+    {"mask", make_mask_bsdf},
+    {"coating", make_coating_bsdf},
+    {"bumpmap", make_bump_map_bsdf},
+    {"bump", make_bump_map_bsdf},
+    {"normalmap", make_normal_map_bsdf},
+    {"blendbsdf", make_blend_bsdf},
+    {"mixturebsdf", make_mixture_bsdf},
 };
 
 }  // namespace

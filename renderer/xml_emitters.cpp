@@ -3,6 +3,7 @@
 
 #include "core/image_io.h"
 #include "core/light.h"
+#include "renderer/xml_daylight.h"
 #include "renderer/xml_objects.h"
 
 namespace octolux {
@@ -19,13 +20,20 @@ bool is_dark(const Properties& p, Rgb emission, SceneBuilder& b) {
   return true;
 }
 
+}  // namespace
+
 void set_environment(std::unique_ptr<EnvironmentLight> light, const Properties& p,
                      SceneBuilder& b) {
   Scene& scene = b.scene();
-  if (scene.environment) fail(p.node().where, "there can be only one constant or envmap emitter");
+  if (scene.environment) {
+    fail(p.node().where,
+         "there can be only one emitter that surrounds the scene (constant, envmap, sun, sky)");
+  }
   scene.environment = light.get();
   scene.lights.push_back(std::move(light));
 }
+
+namespace {
 
 void point(Properties& p, SceneBuilder& b) {
   const Affine to_world = p.transform("to_world");
@@ -53,6 +61,33 @@ void environment_map(Properties& p, SceneBuilder& b) {
   set_environment(make_envmap_light(std::move(image), to_world, scale), p, b);
 }
 
+/// Towards which +z of to_world, or 'direction', shines.
+void directional(Properties& p, SceneBuilder& b) {
+  const std::optional<Vec3> given = p.point("direction");
+  if (given && p.find("to_world")) p.fail("direction", "give either 'direction' or 'to_world'");
+  const Vec3 direction = given ? *given : p.transform("to_world").vector({0, 0, 1});
+  if (!(length(direction) > 0)) p.fail("direction", "'direction' must not be zero");
+  const Rgb irradiance = read_emission(p, "irradiance");
+  if (is_dark(p, irradiance, b)) return;
+  b.scene().lights.push_back(make_directional_light(normalize(direction), irradiance));
+}
+
+void spot(Properties& p, SceneBuilder& b) {
+  SpotConfig config{.to_world = p.transform("to_world"),
+                    .intensity = read_emission(p, "intensity")};
+  const float cutoff = p.positive("cutoff_angle", 20);
+  const float beam = p.number("beam_width").value_or(0.75f * cutoff);
+  if (!(cutoff < 90)) p.fail("cutoff_angle", "'cutoff_angle' must be below 90 degrees");
+  if (!(beam >= 0 && beam <= cutoff)) {
+    p.fail("beam_width", "'beam_width' must lie between 0 and 'cutoff_angle'");
+  }
+  config.cutoff = cutoff * kPi / 180;
+  config.beam = beam * kPi / 180;
+  if (const XmlNode* slide = p.find("texture")) config.texture = &b.texture(slide->object());
+  if (is_dark(p, config.intensity, b)) return;
+  b.scene().lights.push_back(make_spot_light(config));
+}
+
 void lone_area(Properties& p, SceneBuilder&) {
   fail(p.node().where, "an area emitter needs a shape: nest it in one, or let one refer to it");
 }
@@ -62,6 +97,11 @@ constexpr Plugin<void (*)(Properties&, SceneBuilder&)> kPlugins[] = {
     {"point", point},
     {"constant", constant},
     {"envmap", environment_map},
+    {"directional", directional},
+    {"spot", spot},
+    {"sun", add_sun},
+    {"sky", add_sky},
+    {"sunsky", add_sun_and_sky},
 };
 
 }  // namespace
@@ -77,13 +117,16 @@ void add_area_light(const XmlNode& emitter, std::size_t shape_index, SceneBuilde
     fail(emitter.where, "an emitter '" + properties.type() + "' cannot stand inside a shape");
   }
   properties.ignore({"sampling_weight"});
-  const Rgb radiance = read_emission(properties, "radiance");
-  properties.finish();
+  const XmlNode* given = properties.find("radiance");
+  const bool textured = given && given->object().tag == "texture";
+  const Color radiance = textured ? Color(builder.texture(given->object()))
+                                  : Color(read_emission(properties, "radiance"));
+  builder.finish(properties);
 
   Scene& scene = builder.scene();
   Shape& shape = scene.shapes[shape_index];
   if (!(area(shape) > 0)) fail(emitter.where, "the shape of an area emitter has no area");
-  if (is_dark(properties, radiance, builder)) return;
+  if (is_dark(properties, radiance.mean(), builder)) return;
   shape.light = static_cast<int>(scene.lights.size());
   scene.lights.push_back(make_area_light(shape, radiance));
 }

@@ -42,7 +42,8 @@ constexpr Element kElements[] = {
     {"color", "name value"},
     {"rgb", "name value intent"},
     {"srgb", "name value intent"},
-    {"spectrum", "name value intent"},
+    {"spectrum", "name value intent type"},
+    {"blackbody", "name temperature scale"},
 
     {"transform", "name"},
     {"translate", "value x y z"},

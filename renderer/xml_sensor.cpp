@@ -87,7 +87,7 @@ void read_film(Properties& sensor, SceneBuilder& b) {
   for (const XmlNode* object : films) {
     Properties properties(*object);
     find_plugin(kFilms, properties)(properties, b);
-    properties.finish();
+    b.finish(properties);
   }
 }
 
@@ -129,24 +129,46 @@ float read_fov_x(Properties& p, const FilmSize& film) {
   return static_cast<float>(2 * std::atan(x / 2) * kDegrees);
 }
 
-void perspective(Properties& p, SceneBuilder& b) {
+/// What all sensors have.
+CameraConfig& read_camera(Properties& p, SceneBuilder& b) {
   p.objects("sampler");
-  p.ignore({"focus_distance", "shutter_open", "shutter_close"});
+  p.ignore({"shutter_open", "shutter_close"});
   read_film(p, b);
   CameraConfig& camera = b.scene().camera_config;
   camera.to_world = p.transform("to_world");
-  camera.fov_x_degrees = read_fov_x(p, b.scene().film);
   camera.near_clip = p.positive("near_clip", camera.near_clip);
   camera.far_clip = p.positive("far_clip", camera.far_clip);
   if (camera.far_clip <= camera.near_clip) {
     p.fail("far_clip", "'far_clip' must be above 'near_clip'");
   }
+  return camera;
+}
+
+void perspective(Properties& p, SceneBuilder& b) {
+  CameraConfig& camera = read_camera(p, b);
+  if (p.type() == "perspective") p.ignore({"focus_distance"});
+  camera.fov_x_degrees = read_fov_x(p, b.scene().film);
   camera.principal_offset = {p.number("principal_point_offset_x").value_or(0),
                              p.number("principal_point_offset_y").value_or(0)};
 }
 
+void thin_lens(Properties& p, SceneBuilder& b) {
+  perspective(p, b);
+  CameraConfig& camera = b.scene().camera_config;
+  if (!p.find("aperture_radius")) p.fail("aperture_radius", "'aperture_radius' is missing");
+  camera.aperture_radius = p.positive("aperture_radius", 0);
+  camera.focus_distance = p.positive("focus_distance", camera.far_clip);
+}
+
+void orthographic(Properties& p, SceneBuilder& b) {
+  p.ignore({"focus_distance"});
+  read_camera(p, b).projection = Projection::orthographic;
+}
+
 constexpr Plugin<void (*)(Properties&, SceneBuilder&)> kSensors[] = {
     {"perspective", perspective},
+    {"thinlens", thin_lens},
+    {"orthographic", orthographic},
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
-// <texture>: bitmap and checkerboard, in both dialects (0.5/0.6: uscale, voffset ..., gamma).
+// <texture>: bitmap, checkerboard, scale, rawconstant and mesh attributes, in both dialects
+// (0.5/0.6: uscale, voffset ..., gamma).
 #include <algorithm>
 #include <cmath>
 
@@ -33,16 +34,16 @@ Image read_pixels(Properties& p, const std::string& path) {
   return image;
 }
 
-/// Textures are reflectances and opacities: [0, 1].
+/// Negative values and NaN mean nothing; what is above 1 the user of the texture must cut.
 void clamp_pixels(Image& image, const Properties& p, SceneBuilder& b) {
-  const auto clamped = [](float x) { return x > 0 ? std::min(x, 1.0f) : 0.0f; };
+  const auto clamped = [](float x) { return x > 0 ? x : 0.0f; };
   bool changed = false;
   for (Rgb& c : image.pixels) {
     const Rgb inside{clamped(c.r), clamped(c.g), clamped(c.b)};
     changed = changed || !(inside == c);
     c = inside;
   }
-  if (changed) b.warn(p.where("filename"), "the image has values outside [0, 1]; clamped");
+  if (changed) b.warn(p.where("filename"), "the image has negative values; clamped");
 }
 
 TextureFilter read_filter(Properties& p, SceneBuilder& b) {
@@ -53,20 +54,44 @@ TextureFilter read_filter(Properties& p, SceneBuilder& b) {
   return name == "nearest" ? TextureFilter::nearest : TextureFilter::bilinear;
 }
 
-TextureWrap read_wrap(Properties& p) {
-  const std::string name = p.choice("wrap_mode", {"repeat", "mirror", "clamp"});
-  return name == "repeat"   ? TextureWrap::repeat
-         : name == "mirror" ? TextureWrap::mirror
-                            : TextureWrap::clamp;
+TextureWrap read_wrap(Properties& p, const std::string& name, TextureWrap fallback) {
+  const std::vector<std::string> names{"repeat", "mirror", "clamp", "zero", "one"};
+  const std::string text = p.text(name).value_or(names[static_cast<std::size_t>(fallback)]);
+  const auto found = std::find(names.begin(), names.end(), text);
+  if (found == names.end()) p.fail(name, unknown_name(name, text, names));
+  return static_cast<TextureWrap>(found - names.begin());
 }
 
 Made bitmap(Properties& p, SceneBuilder& b) {
   p.ignore({"format", "accel", "cache", "max_anisotropy"});
+  const TextureWrap wrap = read_wrap(p, "wrap_mode", TextureWrap::repeat);
   Image image = read_pixels(p, b.file(p, "filename"));
   clamp_pixels(image, p, b);
-  return make_bitmap_texture(
-      std::move(image),
-      {.to_uv = read_uv_map(p), .filter = read_filter(p, b), .wrap = read_wrap(p)});
+  return make_bitmap_texture(std::move(image), {.to_uv = read_uv_map(p),
+                                                .filter = read_filter(p, b),
+                                                .wrap_u = read_wrap(p, "wrap_mode_u", wrap),
+                                                .wrap_v = read_wrap(p, "wrap_mode_v", wrap)});
+}
+
+Made scale(Properties& p, SceneBuilder& b) {
+  const std::vector<const XmlNode*> inner = p.objects("texture");
+  if (inner.size() != 1) fail(p.node().where, "a scale texture needs one nested <texture>");
+  return make_scale_texture(b.texture(*inner.front()),
+                            p.color("scale", ColorRole::ior).value_or(Rgb(1)));
+}
+
+/// The same everywhere, as it stands: <vector>, <point> or a colour.
+Made raw_constant(Properties& p, SceneBuilder&) {
+  const XmlNode* value = p.find("value");
+  if (!value) fail(p.node().where, "a rawconstant texture needs 'value'");
+  Image image(1, 1);
+  if (value->tag == "vector" || value->tag == "point") {
+    const Vec3 v = parse_vector(*value);
+    image.at(0, 0) = {v.x, v.y, v.z};
+  } else {
+    image.at(0, 0) = *p.color("value", ColorRole::ior);
+  }
+  return make_bitmap_texture(std::move(image), {});
 }
 
 Made checkerboard(Properties& p, SceneBuilder& b) {
@@ -75,12 +100,34 @@ Made checkerboard(Properties& p, SceneBuilder& b) {
   return make_checkerboard_texture(color0, color1, read_uv_map(p));
 }
 
+/// "vertex_..." or "face_..." of the mesh; 0.6's `vertexcolors` is one of them.
+Made mesh_attribute(Properties& p, SceneBuilder&) {
+  p.ignore({"name"});
+  return make_mesh_attribute_texture(*mesh_attribute_name(p.node()));
+}
+
 constexpr Plugin<Made (*)(Properties&, SceneBuilder&)> kPlugins[] = {
     {"bitmap", bitmap},
     {"checkerboard", checkerboard},
+    {"scale", scale},
+    {"rawconstant", raw_constant},
+    {"mesh_attribute", mesh_attribute},
+    {"vertexcolors", mesh_attribute},
 };
 
 }  // namespace
+
+std::optional<std::string> mesh_attribute_name(const XmlNode& texture) {
+  if (texture.required("type") == "vertexcolors") return "vertex_color";
+  if (texture.required("type") != "mesh_attribute") return std::nullopt;
+  Properties properties(texture);
+  const std::optional<std::string> name = properties.text("name");
+  if (!name) fail(texture.where, "the parameter 'name' is missing");
+  if (!name->starts_with("vertex_") && !name->starts_with("face_")) {
+    properties.fail("name", "'name' must begin with 'vertex_' or 'face_'");
+  }
+  return name;
+}
 
 std::unique_ptr<Texture> make_texture(Properties& properties, SceneBuilder& builder) {
   return find_plugin(kPlugins, properties)(properties, builder);

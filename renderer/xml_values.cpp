@@ -7,7 +7,9 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "core/error.h"
 #include "core/spectrum.h"
 
 namespace octolux {
@@ -131,7 +133,44 @@ Vec3 parse_vector(const XmlNode& node) {
   return to_vec(axis("x"), axis("y"), axis("z"));
 }
 
+namespace {
+
+/// The number of a nested <float name="...">, or `fallback`.
+double nested_number(const XmlNode& node, const std::string& name, std::optional<double> fallback) {
+  for (const XmlNode& child : node.children) {
+    if (child.required("name") == name) return parse_number(child.required("value"), child.where);
+  }
+  if (!fallback) fail(node.where, "<" + node.tag + "> needs <float name=\"" + name + "\">");
+  return *fallback;
+}
+
+Rgb parse_blackbody(const XmlNode& node, ColorRole role) {
+  double temperature = 0, scale = 1;
+  if (node.tag == "blackbody") {
+    std::string text = node.required("temperature");
+    if (!text.empty() && (text.back() == 'K' || text.back() == 'k')) text.pop_back();
+    temperature = parse_number(text, node.where);
+    if (const std::string* s = node.attribute("scale")) scale = parse_number(*s, node.where);
+  } else {
+    temperature = nested_number(node, "temperature", std::nullopt);
+    scale = nested_number(node, "scale", 1);
+  }
+  if (role != ColorRole::emission) fail(node.where, "only emitters can be black bodies");
+  if (!(temperature > 0)) fail(node.where, "the temperature of a black body must be above 0 K");
+  if (!(scale >= 0)) fail(node.where, "the scale of a black body must not be negative");
+  const Rgb c = blackbody_radiance(temperature) * static_cast<float>(scale);
+  if (!is_finite(c)) fail(node.where, "a number is out of range");
+  return c;
+}
+
+}  // namespace
+
 Rgb parse_color(const XmlNode& node, ColorRole role) {
+  if (node.tag == "blackbody") return parse_blackbody(node, role);
+  if (const std::string* type = node.attribute("type")) {
+    if (*type == "blackbody") return parse_blackbody(node, role);
+    fail(node.where, unknown_name("spectrum plug-in", *type, {"blackbody"}));
+  }
   const std::string& text = node.required("value");
   const Location& where = node.where;
   const std::string_view word = trim(text);

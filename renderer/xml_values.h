@@ -30,8 +30,9 @@ enum class ColorRole {
   ior,          // eta and k: as reflectance, but any size
 };
 /// <rgb>, <srgb>, <color>, <spectrum> or <float>: one number, three, "#rrggbb" (sRGB), or
-/// "wavelength:value, ...". Negative numbers are an Error; components of a spectrum outside
-/// Rec.709 become 0.
+/// "wavelength:value, ..."; or a black body: 0.6's <blackbody temperature=>, 3's <spectrum
+/// type="blackbody"> around <float name="temperature">. Negative numbers are an Error; components
+/// of a spectrum outside Rec.709 become 0.
 Rgb parse_color(const XmlNode& node, ColorRole role);
 
 /// <transform>: its elements in order, each applied after those above it.

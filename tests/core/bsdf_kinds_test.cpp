@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-const SurfacePoint kPoint;
+const SurfacePoint kPoint = test::flat_point();
 constexpr Rgb kGrey(0.5f);
 
 TEST(BsdfLobes, KindFollowsRoughness) {
@@ -22,11 +22,13 @@ TEST(BsdfLobes, KindFollowsRoughness) {
   EXPECT_EQ(kinds(0.1f), Lobes::near_specular | Lobes::smooth);
   EXPECT_EQ(kinds(0.2f), Lobes::smooth);
   EXPECT_EQ(make_plastic({})->lobes(), Lobes::delta | Lobes::smooth);
-  EXPECT_EQ(make_rough_conductor({{}, MicrofacetKind::ggx, 0.1f, 0.9f})->lobes(),
+  EXPECT_EQ(make_rough_conductor({{}, {MicrofacetKind::ggx, 0.1f, 0.9f}})->lobes(),
             Lobes::near_specular);
   EXPECT_EQ(make_conductor({})->lobes(), Lobes::delta);
-  EXPECT_FALSE(make_rough_dielectric({{}, MicrofacetKind::ggx, 0.1f})->smooth_transmission());
-  EXPECT_TRUE(make_rough_dielectric({{}, MicrofacetKind::ggx, 0.3f})->smooth_transmission());
+  EXPECT_FALSE(
+      make_rough_dielectric({{}, {MicrofacetKind::ggx, 0.1f, 0.1f}})->smooth_transmission());
+  EXPECT_TRUE(
+      make_rough_dielectric({{}, {MicrofacetKind::ggx, 0.3f, 0.3f}})->smooth_transmission());
   EXPECT_TRUE(make_thin_dielectric({})->passes_light());
   EXPECT_FALSE(make_dielectric({})->passes_light());
 }
@@ -142,7 +144,7 @@ TEST(RoughPlastic, BaseIsTabulated) {
 
 TEST(RoughConductor, NormalIncidenceClosedForm) {
   // Looking along the normal, m = n: D = 1 / (pi au av), G = 1, f = F D / 4.
-  const auto bsdf = make_rough_conductor({{}, MicrofacetKind::ggx, 0.2f, 0.5f});
+  const auto bsdf = make_rough_conductor({{}, {MicrofacetKind::ggx, 0.2f, 0.5f}});
   const Vec3 n{0, 0, 1};
   EXPECT_FLOAT_EQ(bsdf->f(kPoint, n, n, Lobes::all, Carried::flux).g, 1 / (kPi * 0.4f));
 }
@@ -150,7 +152,8 @@ TEST(RoughConductor, NormalIncidenceClosedForm) {
 TEST(RoughDielectric, NormalIncidenceClosedForm) {
   // Walter et al., equation 21 with all cosines 1, over eta^2 for radiance.
   const float eta = 1.5f, alpha = 0.3f;
-  const auto bsdf = make_rough_dielectric({{eta, Rgb(1), Rgb(1)}, MicrofacetKind::beckmann, alpha});
+  const auto bsdf =
+      make_rough_dielectric({{eta, Rgb(1), Rgb(1)}, {MicrofacetKind::beckmann, alpha, alpha}});
   const Vec3 n{0, 0, 1};
   const float d = 1 / (kPi * alpha * alpha), r = 0.04f;
   EXPECT_FLOAT_EQ(bsdf->f(kPoint, n, n, Lobes::all, Carried::flux).g, r * d / 4);

@@ -106,7 +106,7 @@ TEST(CosineTable, InterpolatesAndIntegrates) {
 
 /// Mean flux that the rough boundary of `eta` reflects (or transmits), by sampling it.
 Running scattered(MicrofacetKind kind, float alpha, float eta, Vec3 wo, bool reflected) {
-  const auto bsdf = make_rough_dielectric({{eta, Rgb(1), Rgb(1)}, kind, alpha});
+  const auto bsdf = make_rough_dielectric({{eta, Rgb(1), Rgb(1)}, {kind, alpha, alpha}});
   Running mean;
   for (int i = 0; i < 40000; ++i) {
     Rng rng(4, Stream::test, 0, static_cast<std::uint64_t>(i));

@@ -50,7 +50,7 @@ TEST(Scattering, PhotonsAreScatteredByTheAdjoint) {
 }
 
 TEST(Scattering, SampleAgreesWithF) {
-  const auto bsdf = make_rough_conductor({{}, MicrofacetKind::ggx, 0.4f, 0.4f});
+  const auto bsdf = make_rough_conductor({{}, {MicrofacetKind::ggx, 0.4f, 0.4f}});
   const SurfacePoint at = tilted();
   const Vec3 wo = normalize({0.1f, 0.3f, 0.9f});
   for (const Carried carried : {Carried::radiance, Carried::flux}) {

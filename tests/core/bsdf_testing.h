@@ -19,6 +19,7 @@ namespace octolux::test {
 struct Built {
   std::vector<std::unique_ptr<Bsdf>> parts;
   std::unique_ptr<Bsdf> bsdf;
+  std::vector<std::unique_ptr<Texture>> textures;
 };
 
 struct BsdfCase {
@@ -26,13 +27,14 @@ struct BsdfCase {
   std::function<Built()> build;
   bool two_faced = false;  // does it scatter light that comes from behind?
   float alpha = 1;         // roughness of its sharpest microfacet lobe; 1 if there is none
+  bool partial = false;    // may samples end below the surface although it has no microfacets?
 
   bool has_microfacets() const { return alpha < 1; }
   /// Relative change of D over change of the half vector: 2 slope / alpha^2, slope < 4 alpha.
   double d_sensitivity() const { return 1 + 8 / static_cast<double>(alpha); }
 };
 
-inline Built single(std::unique_ptr<Bsdf> bsdf) { return {{}, std::move(bsdf)}; }
+inline Built single(std::unique_ptr<Bsdf> bsdf) { return {{}, std::move(bsdf), {}}; }
 
 inline Built two_sided(std::unique_ptr<Bsdf> front, std::unique_ptr<Bsdf> back) {
   Built built;
@@ -49,9 +51,12 @@ inline Built masked(std::unique_ptr<Bsdf> inner, Color opacity) {
   return built;
 }
 
+/// Kinds that hold or add up others; see layered_cases in bsdf_layers.h.
+inline std::vector<BsdfCase> layered_cases(bool white);
+
 /// One of everything; reflectances are below one unless `white`, then nothing is absorbed on
 /// purpose.
-inline std::vector<BsdfCase> bsdf_cases(bool white = false) {
+inline std::vector<BsdfCase> plain_cases(bool white) {
   const Rgb colour = white ? Rgb(1) : Rgb(0.2f, 0.5f, 0.8f);
   const Rgb tint = white ? Rgb(1) : Rgb(0.9f, 0.8f, 0.6f);
   const Rgb ks = white ? Rgb(1, 0.5f, 0.04f) : Rgb(0.04f, 0.2f, 0.4f);
@@ -72,37 +77,37 @@ inline std::vector<BsdfCase> bsdf_cases(bool white = false) {
       {"conductor", [=] { return single(make_conductor(metal)); }},
       {"rough_conductor_beckmann",
        [=] {
-         return single(make_rough_conductor({metal, kBeckmann, 0.1f, 0.1f}));
+         return single(make_rough_conductor({metal, {kBeckmann, 0.1f, 0.1f}}));
        },
        false, 0.1f},
       {"rough_conductor_ggx",
        [=] {
-         return single(make_rough_conductor({metal, kGgx, 0.6f, 0.6f}));
+         return single(make_rough_conductor({metal, {kGgx, 0.6f, 0.6f}}));
        },
        false, 0.6f},
       {"rough_conductor_brushed",
        [=] {
-         return single(make_rough_conductor({metal, kGgx, 0.1f, 0.5f}));
+         return single(make_rough_conductor({metal, {kGgx, 0.1f, 0.5f}}));
        },
        false, 0.1f},
       {"rough_conductor_brushed_beckmann",
        [=] {
-         return single(make_rough_conductor({metal, kBeckmann, 0.7f, 0.25f}));
+         return single(make_rough_conductor({metal, {kBeckmann, 0.7f, 0.25f}}));
        },
        false, 0.25f},
       {"rough_dielectric_beckmann",
        [=] {
-         return single(make_rough_dielectric({glass, kBeckmann, 0.3f}));
+         return single(make_rough_dielectric({glass, {kBeckmann, 0.3f, 0.3f}}));
        },
        true, 0.3f},
       {"rough_dielectric_ggx",
        [=] {
-         return single(make_rough_dielectric({glass, kGgx, 0.1f}));
+         return single(make_rough_dielectric({glass, {kGgx, 0.1f, 0.1f}}));
        },
        true, 0.1f},
       {"rough_dielectric_bubble",
        [=] {
-         return single(make_rough_dielectric({bubble, kGgx, 0.4f}));
+         return single(make_rough_dielectric({bubble, {kGgx, 0.4f, 0.4f}}));
        },
        true, 0.4f},
       {"plastic", [=] { return single(make_plastic(plastic)); }},
@@ -127,6 +132,32 @@ inline std::vector<BsdfCase> bsdf_cases(bool white = false) {
          return single(make_glossy({colour, ks, 0.5f}));
        },
        false, 0.5f},
+      {"phong",
+       [=] {
+         return single(make_phong({colour * 0.6f, tint * 0.4f, 200}));
+       },
+       false, 0.1f},
+      {"phong_wide",
+       [=] {
+         return single(make_phong({colour, tint, 5}));
+       },
+       false, 0.5f},
+      {"rough_dielectric_brushed",
+       [=] {
+         return single(make_rough_dielectric({glass, {kGgx, 0.15f, 0.5f}}));
+       },
+       true, 0.15f},
+      {"principled_metal",
+       [=] {
+         return single(make_principled(
+             {.base_color = tint, .roughness = 0.6f, .anisotropic = 0.5f, .metallic = 1}));
+       },
+       false, 0.28f},
+      {"principled_glass",
+       [=] {
+         return single(make_principled({.base_color = tint, .roughness = 0.5f, .spec_trans = 1}));
+       },
+       true, 0.25f},
       {"two_sided",
        [=] {
          return two_sided(make_diffuse(colour), make_glossy({colour, ks, 0.3f}));
@@ -134,6 +165,21 @@ inline std::vector<BsdfCase> bsdf_cases(bool white = false) {
        true, 0.3f},
       {"mask", [=] { return masked(make_plastic(plastic), Rgb(0.3f, 0.6f, 1)); }},
   };
+}
+
+inline std::vector<BsdfCase> bsdf_cases(bool white = false) {
+  std::vector<BsdfCase> all = plain_cases(white);
+  for (BsdfCase& c : layered_cases(white)) all.push_back(std::move(c));
+  return all;
+}
+
+/// An even surface, z up, with its tangents.
+inline SurfacePoint flat_point() {
+  SurfacePoint at;
+  at.ng = at.ns = {0, 0, 1};
+  at.dp_du = {2, 0, 0};
+  at.dp_dv = {0, 3, 0};
+  return at;
 }
 
 /// Unit vector of cosine z and azimuth phi.
@@ -223,3 +269,5 @@ struct SphereGrid {
 };
 
 }  // namespace octolux::test
+
+#include "tests/core/bsdf_layers.h"

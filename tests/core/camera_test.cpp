@@ -141,5 +141,40 @@ TEST(Camera, NeighbouringPixelsOfALargeFilmAreDistinct) {
   EXPECT_NEAR(at.x / pixel, 1, 0.01);             // 4 roundings of 2^-24 against 9e-5
 }
 
+TEST(OrthographicCamera, RaysAreParallelAndSpanTheFilm) {
+  CameraConfig config;
+  config.projection = Projection::orthographic;
+  config.near_clip = 1;
+  config.to_world = matrix({2, 0, 0, 5, 0, 2, 0, 6, 0, 0, 1, 7});
+  const Camera camera(config, kFilm);  // 4 x 2 pixels: x from +1 to -1, y from 1/2 to -1/2
+  expect_near(camera.ray({0, 0}).origin, {5 + 2, 6 + 1, 7});
+  expect_near(camera.ray({4, 2}).origin, {5 - 2, 6 - 1, 7});
+  for (const Vec2 p : {Vec2{0, 0}, Vec2{1.5f, 0.5f}, Vec2{4, 2}}) {
+    EXPECT_EQ(camera.ray(p).direction, (Vec3{0, 0, 1}));
+    EXPECT_EQ(camera.ray(p).t_min, 1);
+  }
+}
+
+TEST(ThinLensCamera, AllRaysOfAPixelMeetInFocus) {
+  CameraConfig config = right_angle();
+  config.aperture_radius = 0.25f;
+  config.focus_distance = 3;
+  const Camera lens(config, kFilm), pinhole(right_angle(), kFilm);
+  ASSERT_TRUE(lens.has_lens() && !pinhole.has_lens());
+  const Vec2 p{0.5f, 1.7f};
+  const Ray sharp = pinhole.ray(p);
+  const Vec3 focus = sharp.direction * (3 / sharp.direction.z);
+  float widest = 0;
+  for (const Vec2 u : {Vec2{0, 0}, Vec2{0.99f, 0.5f}, Vec2{0.3f, 0.8f}, Vec2{0.5f, 0.5f}}) {
+    const Ray ray = lens.ray(p, u);
+    widest = std::max(widest, length(ray.origin));
+    EXPECT_EQ(ray.origin.z, 0);
+    const Vec3 there = ray.origin + ray.direction * ((3 - ray.origin.z) / ray.direction.z);
+    expect_near(there, focus, 16 * kTolerance);
+  }
+  EXPECT_GT(widest, 0.2f);
+  EXPECT_LE(widest, 0.25f + kTolerance);
+}
+
 }  // namespace
 }  // namespace octolux

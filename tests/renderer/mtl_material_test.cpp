@@ -40,8 +40,10 @@ TEST(MtlFile, ValuesAndDefaults) {
   EXPECT_EQ(m.opacity, 0.25f);
   EXPECT_EQ(m.illum, 2);
   ASSERT_EQ(m.maps.size(), 2u);
-  EXPECT_EQ(m.maps[0], (std::pair<std::string, std::string>("map_Kd", "a b.png")));
-  EXPECT_EQ(m.maps[1], (std::pair<std::string, std::string>("bump", "c.png")));
+  EXPECT_EQ(m.maps[0].key, "map_Kd");
+  EXPECT_EQ(m.maps[0].file, "a b.png");
+  EXPECT_EQ(m.maps[1].key, "bump");
+  EXPECT_EQ(m.maps[1].file, "c.png");
   const MtlMaterial none = material("");
   EXPECT_EQ(none.kd, Rgb(0));
   EXPECT_EQ(none.ni, 1);
@@ -165,7 +167,7 @@ TEST(MtlMaterial, Warnings) {
     return made->scene.warnings.empty() ? "" : made->scene.warnings.at(0);
   };
   EXPECT_NE(said("Kd 1.5 0 0\n").find("a.mtl:1: material 'm': Kd above 1"), std::string::npos);
-  EXPECT_NE(said("map_Kd x.png\n").find("texture map ignored: map_Kd x.png"), std::string::npos);
+  EXPECT_NE(said("map_Kd x.png\n").find("texture file not found: map_Kd x.png"), std::string::npos);
   EXPECT_NE(said("Ka 1 1 1\n").find("gives no colour; taken as grey"), std::string::npos);
   EXPECT_EQ(said("Kd 0 0 0\n"), "");
   EXPECT_EQ(said("Ke 1 1 1\n"), "");

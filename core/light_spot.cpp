@@ -1,0 +1,98 @@
+// A point that shines into a cone, full inside the beam and fading linearly with the angle to the
+// cutoff; a texture may be put in front like a slide. Semantics of Mitsuba's `spot`.
+#include <cmath>
+
+#include "core/frame.h"
+#include "core/light.h"
+#include "core/sampling.h"
+#include "core/vec3d.h"
+
+namespace octolux {
+namespace {
+
+/// Orthonormal columns of A: z, then x, then y, each less its part along those before.
+Frame frame_of(const Affine& a) {
+  const auto column = [&a](int j) { return Vec3d(a.m[0][j], a.m[1][j], a.m[2][j]); };
+  const Vec3d z(unit_or(column(2), {0, 0, 1}));
+  const Vec3d x(unit_or(column(0) - z * dot(z, column(0)), Frame::from_normal(to_float(z)).s));
+  const Vec3d y = cross(z, x);
+  return {to_float(x), to_float(y * (dot(y, column(1)) < 0 ? -1 : 1)), to_float(z)};
+}
+
+class SpotLight final : public Light {
+ public:
+  explicit SpotLight(const SpotConfig& config)
+      : config_(config),
+        position_(config.to_world.point({0, 0, 0})),
+        frame_(frame_of(config.to_world)),
+        cos_cutoff_(std::cos(config.cutoff)),
+        solid_angle_(2 * kPi * 2 * std::sin(config.cutoff / 2) * std::sin(config.cutoff / 2)) {
+    constexpr std::uint32_t n = 128 * 128;
+    double sum[3] = {};
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const Rgb c = intensity(sample_cone(shifted_hammersley(i, n, {0.5f / n, 0.5f / n})));
+      for (int k = 0; k < 3; ++k) sum[k] += static_cast<double>(c[k]);
+    }
+    const double scale = static_cast<double>(solid_angle_) / n;
+    power_ = {static_cast<float>(sum[0] * scale), static_cast<float>(sum[1] * scale),
+              static_cast<float>(sum[2] * scale)};
+  }
+
+  std::optional<LightSample> sample(Vec3 x, Vec2 /*u*/) const override {
+    const Vec3 d = position_ - x;
+    const float distance2 = length2(d);
+    if (!(distance2 > 0)) return std::nullopt;
+    LightSample s;
+    s.wi = normalize(d);
+    s.radiance = intensity(frame_.to_local(-s.wi)) / distance2;
+    if (!is_finite(s.radiance) || is_black(s.radiance)) return std::nullopt;
+    s.pdf_w = 1;
+    s.delta = true;
+    s.at.position = position_;
+    s.at.ng = s.at.ns = -s.wi;
+    return s;
+  }
+
+  EmittedPhoton emit(Vec2 /*u_position*/, Vec2 u_direction) const override {
+    const Vec3 local = sample_cone(u_direction);
+    return {{position_, normalize(frame_.to_world(local))}, intensity(local) * solid_angle_};
+  }
+
+  Rgb power() const override { return power_; }
+
+ private:
+  /// Uniform over the cone's solid angle.
+  Vec3 sample_cone(Vec2 u) const {
+    const float z = 1 - u.x * (1 - cos_cutoff_);
+    const float r = std::sqrt(std::max(0.0f, (1 - z) * (1 + z)));
+    const float phi = 2 * kPi * u.y;
+    return {r * std::cos(phi), r * std::sin(phi), z};
+  }
+
+  /// [W sr^-1] along a local direction.
+  Rgb intensity(Vec3 w) const {
+    const float angle = std::atan2(std::hypot(w.x, w.y), w.z);
+    if (!(angle < config_.cutoff)) return Rgb(0);
+    const float fade =
+        angle <= config_.beam ? 1 : (config_.cutoff - angle) / (config_.cutoff - config_.beam);
+    const Rgb bare = config_.intensity * fade;
+    if (!config_.texture) return bare;
+    const float half = 0.5f / (w.z * std::tan(config_.cutoff));
+    return bare * config_.texture->eval({0.5f + w.x * half, 0.5f + w.y * half});
+  }
+
+  SpotConfig config_;
+  Vec3 position_;
+  Frame frame_;
+  float cos_cutoff_;
+  float solid_angle_;  // [sr] of the cone
+  Rgb power_;
+};
+
+}  // namespace
+
+std::unique_ptr<Light> make_spot_light(const SpotConfig& config) {
+  return std::make_unique<SpotLight>(config);
+}
+
+}  // namespace octolux
