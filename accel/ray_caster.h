@@ -1,5 +1,5 @@
-// Rays against the scene's shapes. The sole user of Embree (3.13), so the only file that a change
-// of ray tracer touches. Finds, never shades.
+// Rays against the scene's shapes. With embree_scene.h the sole user of Embree (3.13), so all that
+// a change of ray tracer touches. Finds, never shades.
 #pragma once
 
 #include <array>
@@ -8,12 +8,14 @@
 #include <optional>
 #include <span>
 
+#include "core/instance.h"
 #include "core/ray.h"
 #include "core/shape.h"
 
 namespace octolux {
 
-/// Where a ray met a shape.
+/// Where a ray met a shape. Shapes are numbered as in the list given to the ray caster; the shapes
+/// of instances, each on its own, follow behind (RayCaster::placed).
 struct RayHit {
   float t = 0;
   std::uint32_t shape = 0;
@@ -38,13 +40,20 @@ struct PacketHit {
   bool hit() const { return t < kInfinity; }
 };
 
+/// A shape, and the instance that places it.
+struct PlacedShape {
+  std::uint32_t shape = 0;     // in the list of shapes
+  std::uint32_t instance = 0;  // in the list of instances
+};
+
 /// Thread-safe after construction. Uses Embree's robust mode: edges shared by triangles are
 /// watertight, because a ray slipping between two walls is a light leak. (Vertices are so up to
 /// rounding: of rays aimed at one exactly, a few in a thousand pass.)
 class RayCaster {
  public:
-  /// `shapes` must outlive the caster and stay where they are.
-  explicit RayCaster(std::span<const Shape> shapes);
+  /// Both lists must outlive the caster and stay where they are. Shapes of a group are only met
+  /// where an instance places them.
+  explicit RayCaster(std::span<const Shape> shapes, std::span<const Instance> instances = {});
   ~RayCaster();
   RayCaster(RayCaster&&) noexcept;
 
@@ -59,6 +68,8 @@ class RayCaster {
   /// The surface at a hit.
   SurfacePoint surface(const RayHit& hit) const;
 
+  /// The shapes of instances: number i here is number shapes.size() + i in hits.
+  std::span<const PlacedShape> placed() const;
   Bounds bounds() const;
 
  private:

@@ -11,19 +11,31 @@
 
 #include "core/affine.h"
 #include "core/constants.h"
+#include "core/rgb.h"
 #include "core/vec.h"
 
 namespace octolux {
 
+struct TriangleMesh;
+
 /// A point on a surface, ready for shading.
 struct SurfacePoint {
   Vec3 position;
-  Vec3 ng;          // geometric normal, unit, on the front side of the surface
-  Vec3 ns;          // shading normal, unit, dot(ng, ns) >= 0
-  Vec2 uv;          // texture coordinates
-  float error = 0;  // [m] bound on the error of `position`
-  std::uint32_t shape = 0;
+  Vec3 ng;                  // geometric normal, unit, on the front side of the surface
+  Vec3 ns;                  // shading normal, unit, dot(ng, ns) >= 0
+  Vec2 uv;                  // texture coordinates
+  float error = 0;          // [m] bound on the error of `position`
+  std::uint32_t shape = 0;  // as the ray caster numbers them (RayHit)
   std::uint32_t primitive = 0;
+  Vec2 barycentric;                    // on its triangle
+  const TriangleMesh* mesh = nullptr;  // or nullptr; its attributes are looked up there
+};
+
+/// A quantity that a mesh carries besides its geometry, at its vertices (interpolated) or faces.
+struct MeshAttribute {
+  std::string name;  // as the file names it, "vertex_color" or "face_color"
+  bool per_face = false;
+  std::vector<Rgb> values;  // one per vertex or per triangle
 };
 
 /// Triangles in world space. `normals` and `uvs` are per vertex or empty. The front side is the one
@@ -33,6 +45,7 @@ struct TriangleMesh {
   std::vector<Vec3> normals;
   std::vector<Vec2> uvs;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<MeshAttribute> attributes = {};  // only those that a texture reads
 };
 
 /// An exact curved (or round) shape under any invertible affine map, in Mitsuba's conventions: unit
@@ -62,6 +75,7 @@ struct Shape {
   int bsdf = -1;
   int light = -1;    // the area light this shape is, or -1
   std::string name;  // for messages
+  int group = -1;    // the group it belongs to (core/instance.h), or -1: it stands in the world
 };
 
 /// Where a ray met a quadric, in object space.

@@ -7,24 +7,36 @@
 
 namespace octolux {
 
+void Scene::add_placed_shapes() {
+  bsdf_of_shape.clear();
+  for (const Shape& shape : shapes) {
+    bsdf_of_shape.push_back(bsdfs[static_cast<std::size_t>(shape.bsdf)].get());
+    if (shape.group < 0) total_area += area(shape);
+  }
+  for (const PlacedShape& placed : caster->placed()) {
+    bsdf_of_shape.push_back(bsdf_of_shape[placed.shape]);
+    total_area += area(shapes[placed.shape], instances[placed.instance].to_world);
+  }
+  area_light_of_shape.assign(bsdf_of_shape.size(), nullptr);
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    if (shapes[i].light < 0) continue;
+    const Light* light = lights[static_cast<std::size_t>(shapes[i].light)].get();
+    area_light_of_shape[i] = dynamic_cast<const AreaLight*>(light);
+  }
+}
+
 void Scene::complete() {
   if (shapes.empty()) throw Error("the scene has no shapes");
-  caster = std::make_unique<RayCaster>(shapes);
+  caster = std::make_unique<RayCaster>(shapes, instances);
   bounds = caster->bounds();
   if (bounds.empty() || !is_finite(bounds.lower) || !is_finite(bounds.upper)) {
     throw Error("the scene has no triangles, or a vertex that is not finite");
   }
   camera = Camera(camera_config, film);
-  area_light_of_shape.assign(shapes.size(), nullptr);
-  total_area = 0;
-  for (std::size_t i = 0; i < shapes.size(); ++i) {
-    const Bsdf& scattering = bsdf(static_cast<std::uint32_t>(i));
-    any_pass_through |= scattering.passes_light();
-    any_specular |= scattering.has(Lobes::specular);
-    total_area += area(shapes[i]);
-    if (shapes[i].light >= 0) {
-      area_light_of_shape[i] = dynamic_cast<const AreaLight*>(lights[shapes[i].light].get());
-    }
+  add_placed_shapes();
+  for (const Bsdf* scattering : bsdf_of_shape) {
+    any_pass_through |= scattering->passes_light();
+    any_specular |= scattering->has(Lobes::specular);
   }
   Bounds everything = bounds;
   everything.add(camera_config.to_world.point({0, 0, 0}));

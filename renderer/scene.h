@@ -18,11 +18,10 @@ namespace octolux {
 
 struct Scene {
   std::vector<Shape> shapes;
+  std::vector<Instance> instances;  // of those shapes that belong to groups; they do not emit
   std::vector<std::unique_ptr<Bsdf>> bsdfs;
   std::vector<std::unique_ptr<Texture>> textures;
   std::vector<std::unique_ptr<Light>> lights;
-  /// Per shape: its area light, or nullptr. Filled by complete().
-  std::vector<const AreaLight*> area_light_of_shape;
   const EnvironmentLight* environment = nullptr;  // one of `lights`, or none
 
   CameraConfig camera_config;
@@ -41,15 +40,21 @@ struct Scene {
 
   // Built by complete():
   std::unique_ptr<RayCaster> caster;
+  // Per shape, as hits number them (RayHit), so those of instances too:
+  std::vector<const Bsdf*> bsdf_of_shape;
+  std::vector<const AreaLight*> area_light_of_shape;  // or nullptr
   Bounds bounds;
-  double total_area = 0;          // of all shapes [m^2]
+  double total_area = 0;          // of all shapes, at every instance [m^2]
   bool any_pass_through = false;  // some BSDF passes light straight on
   bool any_specular = false;      // some BSDF has a specular lobe, so caustics are possible
 
-  const Bsdf& bsdf(std::uint32_t shape) const { return *bsdfs[shapes[shape].bsdf]; }
+  const Bsdf& bsdf(std::uint32_t shape) const { return *bsdf_of_shape[shape]; }
 
   /// Builds what follows from the lists above. Call once after loading; then nothing may change.
   void complete();
+
+ private:
+  void add_placed_shapes();
 };
 
 }  // namespace octolux

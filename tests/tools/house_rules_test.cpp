@@ -81,7 +81,7 @@ struct Owner {
 };
 
 const std::vector<Owner> kOwners = {
-    {"embree", {"accel/ray_caster.cpp"}},
+    {"embree", {"accel/embree_scene.h", "accel/ray_caster.cpp"}},
     {"Imf", {"core/exr_io.cpp"}},
     {"stb_image", {"core/stb_io.cpp"}},
     {"stb_easy_font", {"tools/compare/text.cpp"}},
