@@ -1,11 +1,12 @@
 // instance.h. Normals go with the inverse transpose, so inside and outside keep their meaning under
 // every map.
 //
-// Error of a placed point. Its position is rounded, as everywhere (core/ray.h). The ray caster maps
-// the next ray's origin into the group's space by a float matrix: with B the inverse of A, each
-// coordinate of B (p - b) errs by some units of 2^-24 times the sum of |B_ij| (|p_j| + |b_j|),
-// which is large for a small object far from the world's origin. Errors of the group's space count
-// in the world by how much the map stretches distances along the normal: 1 / |A^-T n|.
+// Error of a placed point p, with A p' + b = p. The point's own error counts by how much the map
+// stretches distances along the normal, 1 / |A^-T n|. The ray caster maps the next ray's origin
+// into the group's space by a float matrix B = A^-1: coordinate i errs by some units of 2^-24 times
+// the sum of |B_ij| (|p_j| + |b_j|). For A = R S, rotation after scaling, that is at most sqrt(3)
+// (|p| + |b|) / s_i; along n, stretched, at most 3 (|p| + |b|) whatever S: as if p itself had been
+// rounded a few times, like any position (core/ray.h), but b counts too.
 #include "core/instance.h"
 
 #include <cmath>
@@ -15,19 +16,6 @@
 
 namespace octolux {
 namespace {
-
-/// Bound on the error of a world point near `p` once it has been mapped into the group's space.
-float mapped_error(const Instance& instance, Vec3 p) {
-  const Affine& to_world = instance.to_world;
-  const double x = std::abs(p.x) + std::abs(to_world.m[0][3]);
-  const double y = std::abs(p.y) + std::abs(to_world.m[1][3]);
-  const double z = std::abs(p.z) + std::abs(to_world.m[2][3]);
-  const auto sum = [&](const std::array<double, 4>& row) {
-    return static_cast<float>(std::abs(row[0]) * x + std::abs(row[1]) * y + std::abs(row[2]) * z);
-  };
-  const auto& rows = instance.to_object.m;
-  return position_error_bound({sum(rows[0]), sum(rows[1]), sum(rows[2])});
-}
 
 double column_length(const Affine& a, int j) { return std::hypot(a.m[0][j], a.m[1][j], a.m[2][j]); }
 
@@ -52,8 +40,10 @@ SurfacePoint place(const SurfacePoint& point, const Instance& instance) {
     const Vec3 ns = normalize(Affine::normal(instance.to_object, point.ns));
     if (dot(ns, result.ng) > 0) result.ns = ns;
   }
-  result.error = position_error_bound(result.position) +
-                 stretch * (point.error + mapped_error(instance, result.position));
+  const auto& m = instance.to_world.m;
+  const Vec3 offset{static_cast<float>(m[0][3]), static_cast<float>(m[1][3]),
+                    static_cast<float>(m[2][3])};
+  result.error = position_error_bound(abs(result.position) + abs(offset)) + stretch * point.error;
   return result;
 }
 
