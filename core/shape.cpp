@@ -78,9 +78,8 @@ SurfacePoint surface_point(const TriangleMesh& mesh, std::uint32_t primitive, fl
   point.error = position_error_bound(max(abs(p0), max(abs(p1), abs(p2)))) +
                 static_cast<float>(plane_error(edges));
   set_normals(mesh, corner, edges.face, {u, v}, point);
-  point.barycentric = {u, v};
-  point.mesh = &mesh;
-  point.uv = mesh.uvs.empty() ? Vec2{u, v} : interpolate(mesh.uvs, corner, u, v);
+  const Vec2 uv = mesh.uvs.empty() ? Vec2{u, v} : interpolate(mesh.uvs, corner, u, v);
+  point.uv = TexturePoint(uv, mesh, primitive, {u, v});
   return point;
 }
 

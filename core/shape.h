@@ -12,23 +12,20 @@
 #include "core/affine.h"
 #include "core/constants.h"
 #include "core/rgb.h"
+#include "core/texture_point.h"
 #include "core/vec.h"
 
 namespace octolux {
-
-struct TriangleMesh;
 
 /// A point on a surface, ready for shading.
 struct SurfacePoint {
   Vec3 position;
   Vec3 ng;                  // geometric normal, unit, on the front side of the surface
   Vec3 ns;                  // shading normal, unit, dot(ng, ns) >= 0
-  Vec2 uv;                  // texture coordinates
+  TexturePoint uv;          // texture coordinates
   float error = 0;          // [m] bound on the error of `position`
   std::uint32_t shape = 0;  // as the ray caster numbers them (RayHit)
   std::uint32_t primitive = 0;
-  Vec2 barycentric;                    // on its triangle
-  const TriangleMesh* mesh = nullptr;  // or nullptr; its attributes are looked up there
 };
 
 /// A quantity that a mesh carries besides its geometry, at its vertices (interpolated) or faces.

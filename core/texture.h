@@ -5,10 +5,12 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "core/affine.h"
 #include "core/image.h"
 #include "core/rgb.h"
+#include "core/texture_point.h"
 #include "core/vec.h"
 
 namespace octolux {
@@ -17,7 +19,7 @@ namespace octolux {
 class Texture {
  public:
   virtual ~Texture() = default;
-  virtual Rgb eval(Vec2 uv) const = 0;
+  virtual Rgb eval(const TexturePoint& at) const = 0;
   /// Mean over the unit square; for albedo estimates and for choosing lobes.
   virtual Rgb mean() const = 0;
 };
@@ -30,7 +32,9 @@ class Color {
   explicit Color(const Texture& texture, Rgb factor = Rgb(1))
       : factor_(factor), texture_(&texture) {}
 
-  Rgb operator()(Vec2 uv) const { return texture_ ? factor_ * texture_->eval(uv) : factor_; }
+  Rgb operator()(const TexturePoint& at) const {
+    return texture_ ? factor_ * texture_->eval(at) : factor_;
+  }
   Rgb mean() const { return texture_ ? factor_ * texture_->mean() : factor_; }
   bool is_constant() const { return !texture_; }
 
@@ -52,5 +56,8 @@ std::unique_ptr<Texture> make_bitmap_texture(Image image, const BitmapConfig& co
 
 /// Four squares per unit square: `color0` where u and v are in the same half.
 std::unique_ptr<Texture> make_checkerboard_texture(Rgb color0, Rgb color1, const Affine& to_uv);
+
+/// The attribute of that name (MeshAttribute) of the mesh that is looked at.
+std::unique_ptr<Texture> make_mesh_attribute_texture(const std::string& name);
 
 }  // namespace octolux

@@ -22,7 +22,7 @@ class BitmapTexture final : public Texture {
     mean_ = Rgb(static_cast<float>(r / n), static_cast<float>(g / n), static_cast<float>(b / n));
   }
 
-  Rgb eval(Vec2 uv) const override {
+  Rgb eval(const TexturePoint& uv) const override {
     const Vec3 p = config_.to_uv.point({uv.x, uv.y, 1});
     const float x = into_image(p.x, image_.width), y = into_image(p.y, image_.height);
     return config_.filter == TextureFilter::nearest ? nearest(x, y) : bilinear(x, y);

@@ -12,7 +12,7 @@ class CheckerboardTexture final : public Texture {
   CheckerboardTexture(Rgb color0, Rgb color1, const Affine& to_uv)
       : color0_(color0), color1_(color1), to_uv_(to_uv) {}
 
-  Rgb eval(Vec2 uv) const override {
+  Rgb eval(const TexturePoint& uv) const override {
     const Vec3 p = to_uv_.point({uv.x, uv.y, 1});
     return upper_half(p.x) == upper_half(p.y) ? color0_ : color1_;
   }

@@ -8,52 +8,12 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "renderer/mesh_normals.h"
 
 namespace octolux {
 namespace {
 
 std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
-
-/// Unit vector along `v`, or 0 if it has no direction.
-Vec3 direction(Vec3 v) {
-  const float scale = max_component(abs(v));  // so that squares neither overflow nor vanish
-  if (!(scale > 0) || !std::isfinite(scale)) return {};
-  return normalize(v / scale);
-}
-
-/// Normal of a triangle with its area as length, [m^2] twice.
-Vec3 area_vector(Vec3 a, Vec3 b, Vec3 c) { return cross(b - a, c - a); }
-
-/// Has the triangle a plane, as far as float arithmetic can tell?
-bool has_area(Vec3 a, Vec3 b, Vec3 c) {
-  const float size2 = length2(area_vector(a, b, c));
-  return size2 > 0 && std::isfinite(size2);
-}
-
-/// Angle between the directions from `at` to `b` and to `c`.
-float angle(Vec3 at, Vec3 b, Vec3 c) {
-  const Vec3 u = direction(b - at), v = direction(c - at);
-  return std::atan2(length(cross(u, v)), dot(u, v));
-}
-
-/// Vertex normals: normals of the faces around, weighted by the angle each has at the vertex.
-void compute_smooth_normals(TriangleMesh& mesh) {
-  const std::vector<Vec3>& p = mesh.positions;
-  std::vector<Vec3> any(p.size());  // of some face, where the sum has no direction
-  mesh.normals.assign(p.size(), {});
-  for (const auto& t : mesh.triangles) {
-    const Vec3 n = direction(area_vector(p[t[0]], p[t[1]], p[t[2]]));
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t here = t[k];
-      mesh.normals[here] += n * angle(p[here], p[t[(k + 1) % 3]], p[t[(k + 2) % 3]]);
-      any[here] = n;
-    }
-  }
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const Vec3 n = direction(mesh.normals[i]);
-    mesh.normals[i] = length2(n) > 0 ? n : any[i];
-  }
-}
 
 }  // namespace
 
@@ -153,23 +113,21 @@ ObjMesh ObjMeshBuilder::build(std::span<const std::uint32_t> triangles) {
   return result;
 }
 
-ObjMesh load_obj_mesh(const std::string& path, const Affine& to_world, bool face_normals,
-                      bool flip_tex_coords) {
-  const ObjFile file = read_obj_file(path);
-  ObjMeshBuilder builder(file, {.to_world = to_world,
-                                .ignore_normals = face_normals,
+ObjMesh load_obj_mesh(const ObjFile& file, const MeshOptions& options) {
+  ObjMeshBuilder builder(file, {.to_world = options.to_world,
+                                .ignore_normals = options.face_normals,
                                 .missing_normals = MissingNormals::smooth,
-                                .flip_tex_coords = flip_tex_coords});
+                                .flip_tex_coords = options.flip_tex_coords});
   std::vector<std::uint32_t> all(file.triangles.size());
   std::iota(all.begin(), all.end(), 0u);
   ObjMesh result = builder.build(all);
   if (result.mesh.triangles.empty()) {
-    throw Error(fmt::format("{}: all {} triangles have no area", path, all.size()));
+    throw Error(fmt::format("{}: all {} triangles have no area", file.path, all.size()));
   }
   result.warnings = file.warnings;
   result.hash = file.hash;
   if (result.degenerate_triangles > 0) {
-    result.warnings.push_back(fmt::format("{}: {} triangles without area are left out", path,
+    result.warnings.push_back(fmt::format("{}: {} triangles without area are left out", file.path,
                                           result.degenerate_triangles));
   }
   return result;

@@ -12,6 +12,7 @@
 
 #include "core/affine.h"
 #include "core/shape.h"
+#include "renderer/mesh_normals.h"
 #include "renderer/obj_file.h"
 
 namespace octolux {
@@ -25,10 +26,9 @@ struct ObjMesh {
 
 /// The whole file as one mesh, for the `obj` shape of Mitsuba XML; materials are ignored. Normals
 /// as in Mitsuba 3: none with `face_normals`; otherwise the file's; if the file uses none, smooth
-/// ones (Thuermer & Wuethrich 1998: face normals weighted by angle). Throws Error, also if no
-/// triangle has area.
-ObjMesh load_obj_mesh(const std::string& path, const Affine& to_world, bool face_normals,
-                      bool flip_tex_coords);
+/// ones (compute_smooth_normals). Of `options` all but creases and flipping. Throws Error, also if
+/// no triangle has area.
+ObjMesh load_obj_mesh(const ObjFile& file, const MeshOptions& options);
 
 /// How faces without normals of their own are shaded. In a mesh in which other faces do have
 /// normals they are always flat.

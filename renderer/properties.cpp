@@ -146,6 +146,14 @@ void Properties::ignore(std::initializer_list<const char*> names) {
   for (const char* name : names) entry(name);
 }
 
+bool Properties::take(const std::string& name) {
+  for (Entry& e : entries_) {
+    if (e.name != name || e.used) continue;
+    return e.used = true;
+  }
+  return false;
+}
+
 void Properties::ignore_rest() {
   for (Entry& e : entries_) e.used = true;
 }

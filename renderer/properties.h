@@ -46,6 +46,8 @@ class Properties {
 
   /// These are legal but change no pixel.
   void ignore(std::initializer_list<const char*> names);
+  /// The same for one; was it there? It is not listed among the legal names.
+  bool take(const std::string& name);
   /// Whatever is left may stand there.
   void ignore_rest();
 

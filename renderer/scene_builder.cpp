@@ -6,6 +6,7 @@
 #include "core/bsdf_makers.h"
 #include "core/file_io.h"
 #include "core/hash.h"
+#include "renderer/xml_extras.h"
 #include "renderer/xml_objects.h"
 
 namespace octolux {
@@ -21,7 +22,7 @@ int SceneBuilder::bsdf(const XmlNode& object) {
   if (known != bsdfs_.end()) return known->second;
   Properties properties(object);
   std::unique_ptr<Bsdf> made = make_bsdf(properties, *this);
-  properties.finish();
+  finish(properties);
   scene_.bsdfs.push_back(std::move(made));
   return bsdfs_[&object] = static_cast<int>(scene_.bsdfs.size()) - 1;
 }
@@ -39,7 +40,7 @@ const Texture& SceneBuilder::texture(const XmlNode& object) {
   if (known != textures_.end()) return *known->second;
   Properties properties(object);
   std::unique_ptr<Texture> made = make_texture(properties, *this);
-  properties.finish();
+  finish(properties);
   scene_.textures.push_back(std::move(made));
   textures_[&object] = scene_.textures.back().get();
   return *scene_.textures.back();
@@ -58,14 +59,27 @@ Rgb SceneBuilder::constant_color(Properties& properties, const std::string& name
   return {std::min(c.r, 1.0f), std::min(c.g, 1.0f), std::min(c.b, 1.0f)};
 }
 
-std::string SceneBuilder::file(Properties& properties, const std::string& name) {
+std::string SceneBuilder::find_file(Properties& properties, const std::string& name) {
   const std::optional<std::string> given = properties.text(name);
   if (!given) properties.fail(name, "the parameter '" + name + "' is missing");
-  std::string path = document_.find_file(*given, properties.where(name));
+  const FoundFile found = document_.find_file(*given, properties.where(name));
+  if (found.differs) {
+    warn(properties.where(name), "there is no '" + *given + "'; '" + found.path + "' is used");
+  }
+  return found.path;
+}
+
+std::string SceneBuilder::file(Properties& properties, const std::string& name) {
+  std::string path = find_file(properties, name);
   if (hashed_files_.insert(path).second) {
     scene_.hash = hash_bytes(scene_.hash, read_file(path));
   }
   return path;
+}
+
+void SceneBuilder::finish(Properties& properties) {
+  ignore_extras(properties, *this);
+  properties.finish();
 }
 
 void SceneBuilder::warn(const std::string& text) {
@@ -75,6 +89,11 @@ void SceneBuilder::warn(const std::string& text) {
 
 void SceneBuilder::warn(const Location& where, const std::string& text) {
   warn(where.file + ":" + std::to_string(where.line) + ": " + text);
+}
+
+void SceneBuilder::warn_once(const std::string& kind, const Location& where,
+                             const std::string& text) {
+  if (warned_.insert(kind).second) warn(where, text);
 }
 
 }  // namespace octolux

@@ -30,18 +30,25 @@ class SceneBuilder {
   /// The same where a texture is not modelled.
   Rgb constant_color(Properties& properties, const std::string& name, float fallback);
 
-  /// Path of the file that the string parameter `name` (required) gives; part of the hash.
+  /// Path of the file that the string parameter `name` (required) gives.
+  std::string find_file(Properties& properties, const std::string& name);
+  /// The same; its content becomes part of the hash.
   std::string file(Properties& properties, const std::string& name);
+
+  /// As properties.finish(), after what exporters add is ignored with a warning (xml_extras.h).
+  void finish(Properties& properties);
 
   void warn(const std::string& text);
   void warn(const Location& where, const std::string& text);
+  /// Nothing if there was a warning of this `kind` already.
+  void warn_once(const std::string& kind, const Location& where, const std::string& text);
 
  private:
   const XmlDocument& document_;
   Scene& scene_;
   std::map<const XmlNode*, int> bsdfs_;
   std::map<const XmlNode*, const Texture*> textures_;
-  std::set<std::string> hashed_files_;
+  std::set<std::string> hashed_files_, warned_;
   int default_bsdf_ = -1;
 };
 

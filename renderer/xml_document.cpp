@@ -157,7 +157,7 @@ void XmlReader::read_child(const pugi::xml_node& xml, const Source& source, XmlN
 
 void XmlReader::include(const XmlNode& directive, XmlNode& parent) {
   const std::string name = directive.required("filename");
-  const std::string path = document_.find_file(name, directive.where);
+  const std::string path = document_.find_file(name, directive.where).path;
   XmlNode root =
       read_file(path, directive.where.file + ":" + std::to_string(directive.where.line) + ": ");
   if (root.tag != "scene") return parent.children.push_back(std::move(root));
@@ -219,15 +219,12 @@ XmlDocument::XmlDocument(const std::string& path,
   resolve_references(root_);
 }
 
-std::string XmlDocument::find_file(const std::string& name, const Location& where) const {
+FoundFile XmlDocument::find_file(const std::string& name, const Location& where) const {
   std::vector<std::string> folders{fs::path(where.file).parent_path().string()};
   // Later <path>s win, as in Mitsuba.
   folders.insert(folders.end(), search_path_.rbegin(), search_path_.rend());
   folders.erase(std::unique(folders.begin(), folders.end()), folders.end());
-  for (const std::string& folder : folders) {
-    const fs::path candidate = fs::path(folder) / name;
-    if (fs::is_regular_file(candidate)) return candidate.string();
-  }
+  if (const std::optional<FoundFile> found = octolux::find_file(folders, name)) return *found;
   std::string searched;
   for (const std::string& folder : folders) {
     searched += (searched.empty() ? "" : ", ") + (folder.empty() ? "." : folder);

@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "renderer/find_file.h"
+
 namespace octolux {
 
 struct Location {
@@ -51,9 +53,9 @@ class XmlDocument {
   /// Of the scene's XML files and of the defines.
   std::uint64_t hash() const { return hash_; }
 
-  /// Path of a file named at `where`: beside that file, or in the search path. Throws Error if it
-  /// is nowhere.
-  std::string find_file(const std::string& name, const Location& where) const;
+  /// A file named at `where`: beside that file, or in the search path. If it is nowhere, a name
+  /// that differs in case or has backslashes will do. Throws Error if there is none either.
+  FoundFile find_file(const std::string& name, const Location& where) const;
 
  private:
   friend class XmlReader;

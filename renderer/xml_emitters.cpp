@@ -78,7 +78,7 @@ void add_area_light(const XmlNode& emitter, std::size_t shape_index, SceneBuilde
   }
   properties.ignore({"sampling_weight"});
   const Rgb radiance = read_emission(properties, "radiance");
-  properties.finish();
+  builder.finish(properties);
 
   Scene& scene = builder.scene();
   Shape& shape = scene.shapes[shape_index];

@@ -12,6 +12,14 @@ namespace {
 constexpr const char* kExact[] = {"path",   "volpath", "volpath_simple", "volpathmis", "direct",
                                   "moment", "aov",     "bdpt",           "ptracer",    "adaptive"};
 
+/// What Mitsuba's exact integrators have besides: how the work is split, sampled and watched.
+void ignore_method(Properties& properties) {
+  properties.ignore({"rr_depth", "strict_normals", "samples_per_pass", "block_size", "timeout"});
+  properties.ignore({"shading_samples", "emitter_samples", "luminaire_samples", "bsdf_samples"});
+  properties.ignore({"light_image", "sample_direct", "max_error", "p_value", "max_sample_factor"});
+  properties.ignore({"aovs", "hide_environment", "use_nee", "use_mis", "use_spectral_mis"});
+}
+
 }  // namespace
 
 void read_integrator(Properties& properties, SceneBuilder& builder) {
@@ -36,7 +44,9 @@ void read_integrator(Properties& properties, SceneBuilder& builder) {
     Properties inner(*nested);
     read_integrator(inner, builder);
   }
-  properties.ignore_rest();
+  if (!exact) return properties.ignore_rest();
+  ignore_method(properties);
+  builder.finish(properties);
 }
 
 }  // namespace octolux

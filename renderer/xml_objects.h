@@ -6,10 +6,12 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/error.h"
+#include "renderer/mesh_loader.h"
 #include "renderer/properties.h"
 #include "renderer/scene_builder.h"
 
@@ -17,8 +19,16 @@ namespace octolux {
 
 std::unique_ptr<Bsdf> make_bsdf(Properties& properties, SceneBuilder& builder);
 std::unique_ptr<Texture> make_texture(Properties& properties, SceneBuilder& builder);
-/// Geometry and BSDF; the light is added by make_area_lights.
-Shape make_shape(Properties& properties, SceneBuilder& builder);
+/// The name of the attribute if this <texture> reads a mesh attribute.
+std::optional<std::string> mesh_attribute_name(const XmlNode& texture);
+
+/// A shape whose mesh may still have to be read from a file.
+struct MadeShape {
+  Shape shape;
+  std::optional<MeshRequest> file;
+};
+/// Geometry and BSDF; the light is added by add_area_light.
+MadeShape make_shape(Properties& properties, SceneBuilder& builder);
 /// Camera, film and filter of the scene.
 void read_sensor(Properties& properties, SceneBuilder& builder);
 /// Scene::max_depth and hide_emitters.

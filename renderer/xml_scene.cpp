@@ -1,21 +1,22 @@
 // The top level of a scene file. Everything is made, used or not, so that every mistake is found;
-// area lights come last, as they hold the address of their shape.
+// area lights come after the last shape, as they hold its address.
 #include "renderer/xml_scene.h"
 
-#include <set>
-#include <utility>
+#include <vector>
 
 #include "core/error.h"
 #include "renderer/xml_objects.h"
+#include "renderer/xml_shape_list.h"
 
 namespace octolux {
 namespace {
 
 class TopLevel {
  public:
-  TopLevel(const XmlDocument& document, Scene& scene) : builder_(document, scene), scene_(scene) {
+  TopLevel(const XmlDocument& document, Scene& scene, const LoadProgress& progress)
+      : builder_(document, scene), shapes_(builder_), scene_(scene) {
     for (const XmlNode& child : document.root().children) add(child);
-    for (const auto& [emitter, shape] : area_lights_) add_area_light(*emitter, shape, builder_);
+    shapes_.finish(progress);
     for (const XmlNode* emitter : emitters_) add_emitter(*emitter);
     check(document.root());
   }
@@ -27,7 +28,7 @@ class TopLevel {
     } else if (node.tag == "texture") {
       builder_.texture(node);
     } else if (node.tag == "shape") {
-      add_shape(node);
+      shapes_.add(node);
     } else if (node.tag == "emitter") {
       emitters_.push_back(&node);
     } else if (node.tag == "sensor") {
@@ -44,25 +45,12 @@ class TopLevel {
     return tag == "alias" || tag == "film" || tag == "rfilter" || tag == "sampler";
   }
 
-  void add_shape(const XmlNode& node) {
-    Properties properties(node);
-    const std::vector<const XmlNode*> emitters = properties.objects("emitter");
-    if (emitters.size() > 1) fail(node.where, "a shape takes only one emitter");
-    scene_.shapes.push_back(make_shape(properties, builder_));
-    properties.finish();
-    for (const XmlNode* emitter : emitters) {
-      area_lights_.emplace_back(emitter, scene_.shapes.size() - 1);
-    }
-  }
-
   /// An <emitter> of the scene itself; an area emitter only if no shape took it.
   void add_emitter(const XmlNode& node) {
-    for (const auto& [emitter, shape] : area_lights_) {
-      if (emitter == &node) return;
-    }
+    if (shapes_.takes(node)) return;
     Properties properties(node);
     add_light(properties, builder_);
-    properties.finish();
+    builder_.finish(properties);
   }
 
   void add_sensor(const XmlNode& node) {
@@ -73,7 +61,7 @@ class TopLevel {
     sensor_ = &node;
     Properties properties(node);
     read_sensor(properties, builder_);
-    properties.finish();
+    builder_.finish(properties);
   }
 
   void add_integrator(const XmlNode& node) {
@@ -90,19 +78,19 @@ class TopLevel {
   }
 
   SceneBuilder builder_;
+  ShapeList shapes_;
   Scene& scene_;
   const XmlNode* sensor_ = nullptr;
   const XmlNode* integrator_ = nullptr;
   std::vector<const XmlNode*> emitters_;
-  std::vector<std::pair<const XmlNode*, std::size_t>> area_lights_;  // and their shapes
 };
 
 }  // namespace
 
 void load_xml_scene(const std::string& path, const std::map<std::string, std::string>& defines,
-                    Scene& scene) {
+                    Scene& scene, const LoadProgress& progress) {
   const XmlDocument document(path, defines);
-  TopLevel(document, scene);
+  TopLevel(document, scene, progress);
 }
 
 }  // namespace octolux

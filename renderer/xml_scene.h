@@ -4,12 +4,13 @@
 #include <map>
 #include <string>
 
+#include "renderer/load_progress.h"
 #include "renderer/scene.h"
 
 namespace octolux {
 
 /// Fills everything but what Scene::complete() makes. Throws Error.
 void load_xml_scene(const std::string& path, const std::map<std::string, std::string>& defines,
-                    Scene& scene);
+                    Scene& scene, const LoadProgress& progress = {});
 
 }  // namespace octolux

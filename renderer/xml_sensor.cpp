@@ -87,7 +87,7 @@ void read_film(Properties& sensor, SceneBuilder& b) {
   for (const XmlNode* object : films) {
     Properties properties(*object);
     find_plugin(kFilms, properties)(properties, b);
-    properties.finish();
+    b.finish(properties);
   }
 }
 

@@ -1,41 +1,72 @@
 // <shape>: meshes and quadrics in Mitsuba's conventions. A mirrored to_world (negative
 // determinant) keeps the front side: outside stays outside, a rectangle still faces +z's image.
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/frame.h"
 #include "core/shape.h"
-#include "renderer/obj_mesh.h"
 #include "renderer/xml_objects.h"
 
 namespace octolux {
 namespace {
 
-using Geometry = std::variant<TriangleMesh, Quadric>;
+using Geometry = std::variant<TriangleMesh, Quadric, MeshRequest>;
 
 void turn_round(TriangleMesh& mesh) {
   for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
 }
 
-void flip(TriangleMesh& mesh) {
-  turn_round(mesh);
-  for (Vec3& n : mesh.normals) n = -n;
+/// Names of the mesh attributes that textures inside `node` read.
+void add_attribute_names(const XmlNode& node, std::vector<std::string>& names) {
+  if (node.tag == "texture") {
+    const std::optional<std::string> name = mesh_attribute_name(node);
+    if (name && std::find(names.begin(), names.end(), *name) == names.end()) {
+      names.push_back(*name);
+    }
+  }
+  for (const XmlNode& child : node.children) add_attribute_names(child.object(), names);
 }
 
 bool read_flip(Properties& p) { return p.boolean("flip_normals").value_or(false); }
 
-Geometry obj(Properties& p, SceneBuilder& b) {
-  if (p.find("max_smooth_angle")) {
-    p.fail("max_smooth_angle",
-           "'max_smooth_angle' is not modelled; use 'face_normals' or normals in the file");
+/// What all mesh files have in common.
+MeshRequest mesh_file(Properties& p, SceneBuilder& b, MeshRequest::Format format) {
+  MeshRequest request;
+  request.format = format;
+  request.path = b.find_file(p, "filename");
+  MeshOptions& o = request.options;
+  o.to_world = p.transform("to_world");
+  o.face_normals = p.boolean("face_normals").value_or(false);
+  o.flip_normals = read_flip(p);
+  o.max_smooth_angle = p.number("max_smooth_angle");
+  if (o.max_smooth_angle && !(*o.max_smooth_angle >= 0 && *o.max_smooth_angle <= 180)) {
+    p.fail("max_smooth_angle", "'max_smooth_angle' must lie between 0 and 180 degrees");
   }
-  const std::string path = b.file(p, "filename");
-  const bool face_normals = p.boolean("face_normals").value_or(false);
-  const bool flip_tex_coords = p.boolean("flip_tex_coords").value_or(true);
-  ObjMesh loaded = load_obj_mesh(path, p.transform("to_world"), face_normals, flip_tex_coords);
-  for (const std::string& warning : loaded.warnings) b.warn(warning);
-  if (read_flip(p)) flip(loaded.mesh);
-  return std::move(loaded.mesh);
+  if (o.max_smooth_angle && o.face_normals) {
+    p.fail("max_smooth_angle", "give either 'face_normals' or 'max_smooth_angle'");
+  }
+  add_attribute_names(p.node(), request.attributes);
+  return request;
+}
+
+Geometry obj(Properties& p, SceneBuilder& b) {
+  MeshRequest request = mesh_file(p, b, MeshRequest::Format::obj);
+  request.options.flip_tex_coords = p.boolean("flip_tex_coords").value_or(true);
+  return request;
+}
+
+Geometry ply(Properties& p, SceneBuilder& b) {
+  MeshRequest request = mesh_file(p, b, MeshRequest::Format::ply);
+  request.options.flip_tex_coords = p.boolean("flip_tex_coords").value_or(false);
+  return request;
+}
+
+Geometry serialized(Properties& p, SceneBuilder& b) {
+  MeshRequest request = mesh_file(p, b, MeshRequest::Format::serialized);
+  request.shape_index = p.integer("shape_index").value_or(0);
+  if (request.shape_index < 0) p.fail("shape_index", "'shape_index' must not be negative");
+  return request;
 }
 
 /// Appends the parallelogram spanned by u and v at `origin`, uv from (0, 0) to (1, 1), facing v x u
@@ -110,9 +141,22 @@ Geometry cylinder(Properties& p, SceneBuilder&) {
   return make_quadric(Quadric::Kind::cylinder, p.transform("to_world") * along, p);
 }
 
+Geometry group_in_place(Properties& p, SceneBuilder&) {
+  fail(p.node().where, "a shape '" + p.type() + "' cannot stand here");
+}
+
 constexpr Plugin<Geometry (*)(Properties&, SceneBuilder&)> kPlugins[] = {
-    {"obj", obj},       {"rectangle", rectangle}, {"cube", cube},
-    {"sphere", sphere}, {"disk", disk},           {"cylinder", cylinder},
+    {"obj", obj},
+    {"ply", ply},
+    {"serialized", serialized},
+    {"rectangle", rectangle},
+    {"cube", cube},
+    {"sphere", sphere},
+    {"disk", disk},
+    {"cylinder", cylinder},
+    // Not single shapes: see xml_shape_list.cpp.
+    {"shapegroup", group_in_place},
+    {"instance", group_in_place},
 };
 
 std::string describe(const XmlNode& node) {
@@ -123,13 +167,28 @@ std::string describe(const XmlNode& node) {
 
 }  // namespace
 
-Shape make_shape(Properties& properties, SceneBuilder& builder) {
+MadeShape make_shape(Properties& properties, SceneBuilder& builder) {
   const std::vector<const XmlNode*> bsdfs = properties.objects("bsdf");
-  if (bsdfs.size() > 1) fail(properties.node().where, "a shape takes only one bsdf");
-  Shape shape{.geometry = find_plugin(kPlugins, properties)(properties, builder),
-              .name = describe(properties.node())};
-  shape.bsdf = bsdfs.empty() ? builder.default_bsdf() : builder.bsdf(*bsdfs.front());
-  return shape;
+  const XmlNode& node = properties.node();
+  if (bsdfs.size() > 1) fail(node.where, "a shape takes only one bsdf");
+  MadeShape made;
+  made.shape.name = describe(node);
+  Geometry geometry = find_plugin(kPlugins, properties)(properties, builder);
+  if (auto* request = std::get_if<MeshRequest>(&geometry)) {
+    made.file = std::move(*request);
+  } else if (auto* quadric = std::get_if<Quadric>(&geometry)) {
+    made.shape.geometry = *quadric;
+  } else {
+    made.shape.geometry = std::move(std::get<TriangleMesh>(geometry));
+  }
+  std::vector<std::string> attributes;
+  add_attribute_names(node, attributes);
+  if (!made.file && !attributes.empty()) {
+    fail(node.where, "a shape '" + properties.type() + "' has no mesh attribute '" +
+                         attributes.front() + "'; PLY files may have them");
+  }
+  made.shape.bsdf = bsdfs.empty() ? builder.default_bsdf() : builder.bsdf(*bsdfs.front());
+  return made;
 }
 
 }  // namespace octolux

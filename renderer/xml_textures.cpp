@@ -1,4 +1,5 @@
-// <texture>: bitmap and checkerboard, in both dialects (0.5/0.6: uscale, voffset ..., gamma).
+// <texture>: bitmap, checkerboard and mesh attributes, in both dialects (0.5/0.6: uscale, voffset
+// ..., gamma).
 #include <algorithm>
 #include <cmath>
 
@@ -75,12 +76,32 @@ Made checkerboard(Properties& p, SceneBuilder& b) {
   return make_checkerboard_texture(color0, color1, read_uv_map(p));
 }
 
+/// "vertex_..." or "face_..." of the mesh; 0.6's `vertexcolors` is one of them.
+Made mesh_attribute(Properties& p, SceneBuilder&) {
+  p.ignore({"name"});
+  return make_mesh_attribute_texture(*mesh_attribute_name(p.node()));
+}
+
 constexpr Plugin<Made (*)(Properties&, SceneBuilder&)> kPlugins[] = {
     {"bitmap", bitmap},
     {"checkerboard", checkerboard},
+    {"mesh_attribute", mesh_attribute},
+    {"vertexcolors", mesh_attribute},
 };
 
 }  // namespace
+
+std::optional<std::string> mesh_attribute_name(const XmlNode& texture) {
+  if (texture.required("type") == "vertexcolors") return "vertex_color";
+  if (texture.required("type") != "mesh_attribute") return std::nullopt;
+  Properties properties(texture);
+  const std::optional<std::string> name = properties.text("name");
+  if (!name) fail(texture.where, "the parameter 'name' is missing");
+  if (!name->starts_with("vertex_") && !name->starts_with("face_")) {
+    properties.fail("name", "'name' must begin with 'vertex_' or 'face_'");
+  }
+  return name;
+}
 
 std::unique_ptr<Texture> make_texture(Properties& properties, SceneBuilder& builder) {
   return find_plugin(kPlugins, properties)(properties, builder);

@@ -90,6 +90,7 @@ const std::vector<Owner> kOwners = {
     {"tbb/", {"core/parallel.cpp", "accel/"}},
     {"pugixml", {"renderer/"}},
     {"tiny_obj", {"renderer/"}},
+    {"zlib", {"renderer/serialized_file.cpp"}},
     {"CLI/", {"tools/"}},
 };
 
