@@ -15,6 +15,11 @@ void record_error(void* first_error, RTCError, const char* message) {
   if (text.empty()) text = message;
 }
 
+bool count_memory(void* total, ssize_t bytes, bool) {
+  *static_cast<std::atomic<std::int64_t>*>(total) += bytes;
+  return true;  // go on
+}
+
 const Quadric& quadric_of(void* shape) {
   return std::get<Quadric>(static_cast<const Shape*>(shape)->geometry);
 }
@@ -93,18 +98,31 @@ RTCScene new_scene(RTCDevice device) {
 
 }  // namespace
 
-EmbreeScene::EmbreeScene(std::span<const Shape> shapes, std::span<const Instance> instances)
+EmbreeScene::EmbreeScene(std::span<const Shape> shapes, std::span<const Instance> instances,
+                         const RayCaster::BuildProgress& progress)
     : shapes_(shapes), instances_(instances) {
   OCTOLUX_CHECK(device_ != nullptr);
   rtcSetDeviceErrorFunction(device_.get(), record_error, &first_error_);
+  rtcSetDeviceMemoryMonitorFunction(device_.get(), count_memory, &memory_);
   scene_.reset(new_scene(device_.get()));
   add_shapes();
   for (const Group& group : groups_) {
-    if (group.scene) rtcCommitScene(group.scene.get());
+    if (group.scene) commit(group.scene.get(), progress);
   }
   for (std::uint32_t i = 0; i < instances.size(); ++i) add_instance(i);
-  rtcCommitScene(scene_.get());
+  commit(scene_.get(), progress);
   if (!first_error_.empty()) throw Error("Embree: " + first_error_);
+}
+
+void EmbreeScene::commit(RTCScene scene, const RayCaster::BuildProgress& progress) const {
+  const auto report = [](void* to, double share) {
+    (*static_cast<const RayCaster::BuildProgress*>(to))(share);
+    return true;  // go on
+  };
+  auto* to = const_cast<RayCaster::BuildProgress*>(&progress);
+  if (progress) rtcSetSceneProgressMonitorFunction(scene, report, to);
+  rtcCommitScene(scene);
+  if (progress) rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
 }
 
 void EmbreeScene::attach_shape(RTCScene to, const Shape& shape, std::uint32_t id) const {

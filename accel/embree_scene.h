@@ -12,6 +12,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <atomic>
 #include <memory>
 #include <span>
 #include <string>
@@ -33,10 +34,12 @@ using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
 class EmbreeScene {
  public:
   /// Throws Error if Embree fails (memory).
-  EmbreeScene(std::span<const Shape> shapes, std::span<const Instance> instances);
+  EmbreeScene(std::span<const Shape> shapes, std::span<const Instance> instances,
+              const RayCaster::BuildProgress& progress);
 
   RTCScene handle() const { return scene_.get(); }
   const Bounds& bounds() const { return bounds_; }
+  std::int64_t memory() const { return memory_; }
   std::span<const PlacedShape> placed() const { return placed_; }
 
   /// A shape's number in hits (RayHit), from Embree's two.
@@ -60,6 +63,7 @@ class EmbreeScene {
     std::vector<Bounds> bounds;
   };
 
+  void commit(RTCScene scene, const RayCaster::BuildProgress& progress) const;
   void add_shapes();
   void add_to_group(std::uint32_t index, const Bounds& box);
   void add_instance(std::uint32_t index);
@@ -70,6 +74,7 @@ class EmbreeScene {
   std::vector<PlacedShape> placed_;
   std::vector<std::uint32_t> first_of_instance_;  // number of its first shape
   std::string first_error_;                       // written by the device
+  std::atomic<std::int64_t> memory_ = 0;          // [bytes] Embree's own, counted by the device
   Owned<RTCDevice> device_{rtcNewDevice(nullptr)};
   std::vector<Group> groups_;
   Owned<RTCScene> scene_;

@@ -38,8 +38,9 @@ struct RayCaster::Impl : EmbreeScene {
   using EmbreeScene::EmbreeScene;
 };
 
-RayCaster::RayCaster(std::span<const Shape> shapes, std::span<const Instance> instances)
-    : impl_(std::make_unique<Impl>(shapes, instances)) {}
+RayCaster::RayCaster(std::span<const Shape> shapes, std::span<const Instance> instances,
+                     const BuildProgress& progress)
+    : impl_(std::make_unique<Impl>(shapes, instances, progress)) {}
 RayCaster::~RayCaster() = default;
 RayCaster::RayCaster(RayCaster&&) noexcept = default;
 
@@ -116,6 +117,8 @@ SurfacePoint RayCaster::surface(const RayHit& hit) const {
 }
 
 std::span<const PlacedShape> RayCaster::placed() const { return impl_->placed(); }
+
+std::int64_t RayCaster::memory() const { return impl_->memory(); }
 
 Bounds RayCaster::bounds() const { return impl_->bounds(); }
 

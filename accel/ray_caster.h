@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -51,9 +52,13 @@ struct PlacedShape {
 /// rounding: of rays aimed at one exactly, a few in a thousand pass.)
 class RayCaster {
  public:
+  /// Told the share in [0, 1] that is done while building, from any thread. May be empty.
+  using BuildProgress = std::function<void(double)>;
+
   /// Both lists must outlive the caster and stay where they are. Shapes of a group are only met
   /// where an instance places them.
-  explicit RayCaster(std::span<const Shape> shapes, std::span<const Instance> instances = {});
+  explicit RayCaster(std::span<const Shape> shapes, std::span<const Instance> instances = {},
+                     const BuildProgress& progress = {});
   ~RayCaster();
   RayCaster(RayCaster&&) noexcept;
 
@@ -71,6 +76,8 @@ class RayCaster {
   /// The shapes of instances: number i here is number shapes.size() + i in hits.
   std::span<const PlacedShape> placed() const;
   Bounds bounds() const;
+  /// Memory [bytes] besides the lists given.
+  std::int64_t memory() const;
 
  private:
   struct Impl;

@@ -91,8 +91,10 @@ std::string read_file(const std::string& path) {
   if (!in) fail_to_read(path, errno);
   std::string bytes;
   const auto size = fs::file_size(path, error);
-  if (!error) bytes.reserve(size + 1);
-  bytes.assign(std::istreambuf_iterator<char>(in), {});
+  if (!error) bytes.resize(size);  // a guess: pipes and files of the system have no size
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  if (in) bytes.append(std::istreambuf_iterator<char>(in), {});
   if (in.bad()) fail_to_read(path, errno);
   return bytes;
 }

@@ -31,11 +31,11 @@ void split_at_creases(TriangleMesh& mesh, double degrees);
 void spread_face_attributes(TriangleMesh& mesh, std::span<const std::uint32_t> face_of_triangle);
 
 struct MeshOptions {
-  Affine to_world;
+  Affine to_world = {};
   bool face_normals = false;  // drop the normals
   bool flip_normals = false;  // turn front into back
   bool flip_tex_coords = false;
-  std::optional<float> max_smooth_angle;  // [degrees] new normals; see split_at_creases
+  std::optional<float> max_smooth_angle = {};  // [degrees] new normals; see split_at_creases
 };
 
 /// From the file's space to the world: maps, drops triangles without area, gives smooth normals

@@ -25,9 +25,13 @@ void Scene::add_placed_shapes() {
   }
 }
 
-void Scene::complete() {
+void Scene::complete(const LoadProgress& progress) {
   if (shapes.empty()) throw Error("the scene has no shapes");
-  caster = std::make_unique<RayCaster>(shapes, instances);
+  RayCaster::BuildProgress build_progress;
+  if (progress) {
+    build_progress = [&](double share) { progress("sorting triangles for rays", share); };
+  }
+  caster = std::make_unique<RayCaster>(shapes, instances, build_progress);
   bounds = caster->bounds();
   if (bounds.empty() || !is_finite(bounds.lower) || !is_finite(bounds.upper)) {
     throw Error("the scene has no triangles, or a vertex that is not finite");

@@ -13,6 +13,7 @@
 #include "core/light.h"
 #include "core/shape.h"
 #include "core/texture.h"
+#include "renderer/load_progress.h"
 
 namespace octolux {
 
@@ -51,7 +52,7 @@ struct Scene {
   const Bsdf& bsdf(std::uint32_t shape) const { return *bsdf_of_shape[shape]; }
 
   /// Builds what follows from the lists above. Call once after loading; then nothing may change.
-  void complete();
+  void complete(const LoadProgress& progress = {});
 
  private:
   void add_placed_shapes();

@@ -69,6 +69,11 @@ std::string SceneBuilder::find_file(Properties& properties, const std::string& n
   return found.path;
 }
 
+bool SceneBuilder::has_file(Properties& properties, const std::string& name) const {
+  const std::optional<std::string> given = properties.text(name);
+  return !given || document_.has_file(*given, properties.where(name));
+}
+
 std::string SceneBuilder::file(Properties& properties, const std::string& name) {
   std::string path = find_file(properties, name);
   if (hashed_files_.insert(path).second) {

@@ -32,7 +32,9 @@ class SceneBuilder {
 
   /// Path of the file that the string parameter `name` (required) gives.
   std::string find_file(Properties& properties, const std::string& name);
-  /// The same; its content becomes part of the hash.
+  /// False if the parameter is there, and the file is not.
+  bool has_file(Properties& properties, const std::string& name) const;
+  /// As find_file; its content becomes part of the hash.
   std::string file(Properties& properties, const std::string& name);
 
   /// As properties.finish(), after what exporters add is ignored with a warning (xml_extras.h).

@@ -31,14 +31,14 @@ std::unique_ptr<Scene> load_scene(const std::string& path, const LoadOptions& op
   const std::string extension = lower_extension(path);
   auto scene = std::make_unique<Scene>();
   if (extension == ".xml") {
-    load_xml_scene(path, options.defines, *scene);
+    load_xml_scene(path, options, *scene);
   } else if (extension == ".obj") {
     load_bare_obj(path, options, *scene);
   } else {
     throw Error(path + ": a scene is an .xml (Mitsuba) or .obj (Wavefront) file, not '" +
                 extension + "'");
   }
-  scene->complete();
+  scene->complete(options.progress);
   return scene;
 }
 

@@ -219,11 +219,20 @@ XmlDocument::XmlDocument(const std::string& path,
   resolve_references(root_);
 }
 
-FoundFile XmlDocument::find_file(const std::string& name, const Location& where) const {
+std::vector<std::string> XmlDocument::folders_for(const Location& where) const {
   std::vector<std::string> folders{fs::path(where.file).parent_path().string()};
   // Later <path>s win, as in Mitsuba.
   folders.insert(folders.end(), search_path_.rbegin(), search_path_.rend());
   folders.erase(std::unique(folders.begin(), folders.end()), folders.end());
+  return folders;
+}
+
+bool XmlDocument::has_file(const std::string& name, const Location& where) const {
+  return octolux::find_file(folders_for(where), name).has_value();
+}
+
+FoundFile XmlDocument::find_file(const std::string& name, const Location& where) const {
+  const std::vector<std::string> folders = folders_for(where);
   if (const std::optional<FoundFile> found = octolux::find_file(folders, name)) return *found;
   std::string searched;
   for (const std::string& folder : folders) {

@@ -56,9 +56,12 @@ class XmlDocument {
   /// A file named at `where`: beside that file, or in the search path. If it is nowhere, a name
   /// that differs in case or has backslashes will do. Throws Error if there is none either.
   FoundFile find_file(const std::string& name, const Location& where) const;
+  bool has_file(const std::string& name, const Location& where) const;
 
  private:
   friend class XmlReader;
+  std::vector<std::string> folders_for(const Location& where) const;
+
   XmlNode root_;
   std::vector<std::string> search_path_;
   std::vector<std::string> warnings_;

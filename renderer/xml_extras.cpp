@@ -44,7 +44,7 @@ void ignore_extras(Properties& properties, SceneBuilder& builder) {
   for (const Extra& extra : kExtras) {
     if (!matches(extra.tag, tag) || !matches(extra.type, properties.type())) continue;
     if (!properties.take(extra.name)) continue;
-    builder.warn_once(tag + extra.name, properties.where(extra.name),
+    builder.warn_once(extra.name, properties.where(extra.name),
                       std::string("'") + extra.name + "' is ignored: " + extra.why);
   }
 }

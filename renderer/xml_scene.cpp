@@ -13,10 +13,10 @@ namespace {
 
 class TopLevel {
  public:
-  TopLevel(const XmlDocument& document, Scene& scene, const LoadProgress& progress)
-      : builder_(document, scene), shapes_(builder_), scene_(scene) {
+  TopLevel(const XmlDocument& document, Scene& scene, const LoadOptions& options)
+      : builder_(document, scene), shapes_(builder_, options.skip_missing), scene_(scene) {
     for (const XmlNode& child : document.root().children) add(child);
-    shapes_.finish(progress);
+    shapes_.finish(options.progress);
     for (const XmlNode* emitter : emitters_) add_emitter(*emitter);
     check(document.root());
   }
@@ -87,10 +87,9 @@ class TopLevel {
 
 }  // namespace
 
-void load_xml_scene(const std::string& path, const std::map<std::string, std::string>& defines,
-                    Scene& scene, const LoadProgress& progress) {
-  const XmlDocument document(path, defines);
-  TopLevel(document, scene, progress);
+void load_xml_scene(const std::string& path, const LoadOptions& options, Scene& scene) {
+  const XmlDocument document(path, options.defines);
+  TopLevel(document, scene, options);
 }
 
 }  // namespace octolux

@@ -29,6 +29,9 @@ void ShapeList::add(const XmlNode& node, Group& to) {
   Properties properties(node);
   const std::vector<const XmlNode*> emitters = properties.objects("emitter");
   if (emitters.size() > 1) fail(node.where, "a shape takes only one emitter");
+  if (skip_missing_ && !builder_.has_file(properties, "filename")) {
+    return builder_.warn(node.where, "the shape is left out: its file is missing");
+  }
   MadeShape made = make_shape(properties, builder_);
   builder_.finish(properties);
   if (made.file) {

@@ -16,7 +16,9 @@ namespace octolux {
 
 class ShapeList {
  public:
-  explicit ShapeList(SceneBuilder& builder) : builder_(builder) {}
+  /// `skip_missing`: leave out shapes whose file is not there.
+  ShapeList(SceneBuilder& builder, bool skip_missing)
+      : builder_(builder), skip_missing_(skip_missing) {}
 
   /// A <shape> at the top level.
   void add(const XmlNode& node) { add(node, world_); }
@@ -51,6 +53,7 @@ class ShapeList {
   void put(Shape shape, const XmlNode* emitter);
 
   SceneBuilder& builder_;
+  bool skip_missing_;
   std::vector<Entry> entries_;
   std::vector<MeshRequest> requests_;
   std::vector<std::size_t> entry_of_request_;

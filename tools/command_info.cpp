@@ -19,7 +19,7 @@ constexpr std::size_t kListedLights = 16;
 struct GeometryCount {
   std::size_t triangles = 0;
   std::map<std::string, int> quadrics;
-  std::size_t bytes = 0;  // vertices and indices; Embree's own structures are not counted
+  std::size_t bytes = 0;  // vertices, indices, attributes
 };
 
 template <class T>
@@ -34,6 +34,7 @@ GeometryCount count_geometry(const Scene& scene) {
       count.triangles += mesh->triangles.size();
       count.bytes += bytes_of(mesh->positions) + bytes_of(mesh->normals) + bytes_of(mesh->uvs) +
                      bytes_of(mesh->triangles);
+      for (const MeshAttribute& a : mesh->attributes) count.bytes += bytes_of(a.values);
       continue;
     }
     const Quadric::Kind kind = std::get<Quadric>(shape.geometry).kind;
@@ -82,8 +83,13 @@ void print_geometry(const Scene& scene) {
   const GeometryCount count = count_geometry(scene);
   fmt::print("shapes     {}: {} triangles; round shapes: {}\n", scene.shapes.size(),
              count.triangles, join(count.quadrics));
-  fmt::print("memory     {:.3g} MB of vertices and indices\n", 1e-6 * count.bytes);
-  if (scene.bounds.empty()) return;
+  if (!scene.instances.empty()) {
+    fmt::print("instances  {}, with {} shapes\n", scene.instances.size(),
+               scene.caster->placed().size());
+  }
+  fmt::print("memory     {:.3g} MB of vertices and indices, {:.3g} MB to find hits in them\n",
+             1e-6 * static_cast<double>(count.bytes),
+             1e-6 * static_cast<double>(scene.caster->memory()));
   fmt::print("bounds     {} to {} m\n", format(scene.bounds.lower), format(scene.bounds.upper));
 }
 
@@ -156,7 +162,8 @@ class InfoCommand final : public Command {
       if (scene_.path.empty()) return 0;
     }
     if (scene_.path.empty()) throw Error("SCENE is required");
-    const std::unique_ptr<Scene> scene = scene_.load();
+    ProgressPrinter printer(default_verbosity());
+    const std::unique_ptr<Scene> scene = scene_.load(printer);
     fmt::print("scene      {} (hash {:016x})\n", scene_.path, scene->hash);
     print_geometry(*scene);
     print_materials(*scene);

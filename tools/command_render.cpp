@@ -223,7 +223,7 @@ int RenderCommand::run() {
   const PictureWriter writer(picture());
   ProgressPrinter printer(quiet_ ? Verbosity::quiet : default_verbosity());
 
-  const std::unique_ptr<Scene> scene = scene_.load();
+  const std::unique_ptr<Scene> scene = scene_.load(printer);
   if (size) resize(*scene, *size);
   for (const std::string& warning : scene->warnings) printer.say("warning: " + warning);
   printer.say(describe(*scene, settings));

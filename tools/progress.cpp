@@ -56,15 +56,28 @@ Verbosity default_verbosity() {
 void ProgressPrinter::update(const Progress& progress) {
   if (verbosity_ == Verbosity::quiet) return;
   if (verbosity_ == Verbosity::bar) {
-    const std::string line = draw_bar(progress) + describe(progress);
-    fmt::print(stderr, "\r{}\x1b[K", line.substr(0, terminal_width() - 1));
-    std::fflush(stderr);
-    bar_drawn_ = true;
+    draw(draw_bar(progress) + describe(progress));
     return;
   }
   if (last_line_ >= 0 && progress.seconds - last_line_ < kSecondsBetweenLines) return;
   last_line_ = progress.seconds;
   fmt::print(stderr, "{}\n", describe(progress));
+}
+
+void ProgressPrinter::status(const std::string& line) {
+  if (verbosity_ == Verbosity::bar) draw(line);
+  if (verbosity_ == Verbosity::lines) fmt::print(stderr, "{}\n", line);
+}
+
+void ProgressPrinter::clear_bar() {
+  if (bar_drawn_) fmt::print(stderr, "\r\x1b[K");
+  bar_drawn_ = false;
+}
+
+void ProgressPrinter::draw(const std::string& line) {
+  fmt::print(stderr, "\r{}\x1b[K", line.substr(0, terminal_width() - 1));
+  std::fflush(stderr);
+  bar_drawn_ = true;
 }
 
 void ProgressPrinter::say(const std::string& line) {

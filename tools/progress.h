@@ -19,11 +19,18 @@ class ProgressPrinter {
 
   /// After a pass: redraws the bar, or prints a line if the last one is some seconds old.
   void update(const Progress& progress);
+  /// What is going on before the first pass: redraws the bar's line, or prints a line.
+  void status(const std::string& line);
+  /// Takes away a bar, if there is one.
+  void clear_bar();
   /// A line of its own, after the bar if there is one.
   void say(const std::string& line);
   bool quiet() const { return verbosity_ == Verbosity::quiet; }
+  bool draws_bar() const { return verbosity_ == Verbosity::bar; }
 
  private:
+  void draw(const std::string& line);
+
   Verbosity verbosity_;
   bool bar_drawn_ = false;
   double last_line_ = -1;  // Progress::seconds of the last plain line; below 0: none yet

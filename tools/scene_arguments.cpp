@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "renderer/scene_loader.h"
+#include "tools/loading_monitor.h"
 
 namespace octolux {
 
@@ -16,9 +17,11 @@ void SceneArguments::add_to(CLI::App& verb) {
       ->type_name("name=value")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  verb.add_flag("--skip-missing", skip_missing,
+                "Leave out shapes whose file is missing, with a warning");
 }
 
-std::unique_ptr<Scene> SceneArguments::load() const {
+std::unique_ptr<Scene> SceneArguments::load(ProgressPrinter& printer) const {
   LoadOptions options;
   for (const std::string& define : defines) {
     const auto equals = define.find('=');
@@ -27,6 +30,9 @@ std::unique_ptr<Scene> SceneArguments::load() const {
     }
     options.defines[define.substr(0, equals)] = define.substr(equals + 1);
   }
+  options.skip_missing = skip_missing;
+  LoadingMonitor monitor(printer);
+  options.progress = monitor.progress();
   return load_scene(path, options);
 }
 

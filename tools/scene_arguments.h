@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "renderer/scene.h"
+#include "tools/progress.h"
 
 namespace CLI {
 class App;
@@ -16,11 +17,13 @@ namespace octolux {
 struct SceneArguments {
   std::string path;
   std::vector<std::string> defines;  // name=value
+  bool skip_missing = false;
 
   /// The arguments write into this object, so it must stay where it is.
   void add_to(CLI::App& verb);
   /// Throws Error if a definition is malformed or the scene is bad.
-  std::unique_ptr<Scene> load() const;
+  /// Says on `printer` how far it is if that takes long.
+  std::unique_ptr<Scene> load(ProgressPrinter& printer) const;
 };
 
 }  // namespace octolux

@@ -18,7 +18,11 @@ const char kSquare[] = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 ObjMesh load(const std::string& text, const Affine& to_world = {}, bool face_normals = false,
              bool flip = true) {
   const test::TempFolder folder;
-  return load_obj_mesh(folder.write("a b.obj", text), to_world, face_normals, flip);
+  MeshOptions options;
+  options.to_world = to_world;
+  options.face_normals = face_normals;
+  options.flip_tex_coords = flip;
+  return load_obj_mesh(read_obj_file(folder.write("a b.obj", text)), options);
 }
 
 Vec3 winding_normal(const TriangleMesh& mesh, std::size_t triangle) {
@@ -158,7 +162,7 @@ TEST(ObjMeshSlow, AMillionTriangles) {
   const test::TempFolder folder;
   const std::string path = folder.write("big.obj", text);
   const auto start = std::chrono::steady_clock::now();
-  const ObjMesh result = load_obj_mesh(path, {}, false, true);
+  const ObjMesh result = load_obj_mesh(read_obj_file(path), {.flip_tex_coords = true});
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   EXPECT_EQ(result.mesh.triangles.size(), 2u * 707 * 707);
   EXPECT_EQ(result.mesh.positions.size(), static_cast<std::size_t>(kSide) * kSide);

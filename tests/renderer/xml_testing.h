@@ -28,7 +28,7 @@ class SceneFiles {
   /// Not completed: no ray caster is built.
   std::unique_ptr<Scene> load(const Defines& defines = {}) const {
     auto scene = std::make_unique<Scene>();
-    load_xml_scene(path(), defines, *scene);
+    load_xml_scene(path(), {.defines = defines}, *scene);
     return scene;
   }
 
