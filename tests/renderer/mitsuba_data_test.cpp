@@ -71,6 +71,7 @@ INSTANTIATE_TEST_SUITE_P(
              "bsdf_spheres/refs/test_roughplastic_nonlinear_ref"},
         Case{"bsdf_spheres/test_textured_diffuse_path.xml",
              "bsdf_spheres/refs/test_textured_diffuse_ref"},
+        Case{"instancing/test_instancing_path.xml", "instancing/refs/test_instancing_ref"},
         Case{"infinite_mirrors/scene_path.xml", "infinite_mirrors/refs/scene_ref"}),
     [](const testing::TestParamInfo<Case>& param) {
       std::string name = std::filesystem::path(param.param.reference).filename().string();

@@ -127,7 +127,7 @@ TEST(PlyFile, BadHeaders) {
 
 TEST(PlyFile, BadBodies) {
   EXPECT_EQ(complaint(small("0 0 0\n1 0 0\n1 1 0\n0 1 0\n")),
-            "a.ply:14: face 0 of 1: the file ends early: 0 bytes are left for 1 of them");
+            "a.ply:14: face 0 of 1: the file ends here");
   EXPECT_EQ(complaint(small("0 0 0\n1 0 0\n1 zero 0\n0 1 0\n3 0 1 2")),
             "a.ply:12: vertex 2 of 4: 'y' is not a number");
   EXPECT_EQ(complaint(small("0 0 0\n1 0 0\n1 nan 0\n0 1 0\n3 0 1 2")),
@@ -145,7 +145,7 @@ TEST(PlyFile, BadBodies) {
             "a.ply:15: there is data behind the last element; a count is too small");
   EXPECT_EQ(complaint(small(kVertices + "2 0 1")), "a.ply:14: holds no faces");
   EXPECT_EQ(complaint(small(kVertices + "0", "int other")),
-            "a.ply:14: face 0 of 1: expected a property list 'vertex_indices'");
+            "a.ply:13: face 0 of 1: expected a property list 'vertex_indices'");
 }
 
 TEST(PlyFile, TruncatedBinaryFilesAreNoticedAnywhere) {

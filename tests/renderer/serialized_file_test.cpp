@@ -123,7 +123,7 @@ TEST(SerializedFile, BadOnes) {
             "a: mesh 0: 1099511627776 vertices and 1 triangles do not fit the file");
   EXPECT_EQ(complaint(file({{.flags = 0}}), 0, true), "a: mesh 0: has no vertex colours");
   std::string broken = good;
-  broken[4] = 'x';  // zlib's first byte
+  broken[4] = 'y';  // zlib's first byte
   EXPECT_EQ(complaint(broken), "a: mesh 0: broken zlib data (incorrect header check)");
 }
 

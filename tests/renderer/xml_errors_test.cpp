@@ -103,7 +103,6 @@ TEST(XmlErrors, UnknownAndMisusedParameters) {
                "the parameter 'radius' is <string>, expected <float>"),
       in_shape("sphere", "<film type='hdrfilm'/>", "a film cannot stand inside shape 'sphere'"),
       in_shape("obj", "", "the parameter 'filename' is missing"),
-      in_shape("obj", "<float name='maxSmoothAngle' value='30'/>", "is not modelled"),
   });
 }
 

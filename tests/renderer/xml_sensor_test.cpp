@@ -81,7 +81,7 @@ TEST(XmlIntegrator, DepthIsReadThroughWrappers) {
                       "<integer name='max_depth' value='8'/></integrator></integrator>"),
             8);
   EXPECT_EQ(max_depth("<integrator type='path'><integer name='maxDepth' value='-1'/>"
-                      "<integer name='rrDepth' value='5'/><float name='made_up' value='1'/>"
+                      "<integer name='rrDepth' value='5'/><boolean name='strictNormals' value='true'/>"
                       "</integrator>"),
             -1);
 }
