@@ -80,10 +80,11 @@ TEST(XmlIntegrator, DepthIsReadThroughWrappers) {
   EXPECT_EQ(max_depth("<integrator type='moment'><integrator type='path'>"
                       "<integer name='max_depth' value='8'/></integrator></integrator>"),
             8);
-  EXPECT_EQ(max_depth("<integrator type='path'><integer name='maxDepth' value='-1'/>"
-                      "<integer name='rrDepth' value='5'/><boolean name='strictNormals' value='true'/>"
-                      "</integrator>"),
-            -1);
+  EXPECT_EQ(
+      max_depth("<integrator type='path'><integer name='maxDepth' value='-1'/>"
+                "<integer name='rrDepth' value='5'/><boolean name='strictNormals' value='true'/>"
+                "</integrator>"),
+      -1);
 }
 
 TEST(XmlIntegrator, OthersAreReplacedWithAWarning) {
