@@ -85,12 +85,11 @@ const std::vector<Owner> kOwners = {
     {"Imf", {"core/exr_io.cpp"}},
     {"stb_image", {"core/stb_io.cpp"}},
     {"stb_easy_font", {"tools/compare/text.cpp"}},
-    {"zlib", {"tools/compare/page_pixels.cpp"}},
+    {"zlib", {"renderer/serialized_file.cpp", "tools/compare/page_pixels.cpp"}},
     {"OpenColorIO", {"core/display.cpp"}},
     {"tbb/", {"core/parallel.cpp", "accel/"}},
     {"pugixml", {"renderer/"}},
     {"tiny_obj", {"renderer/"}},
-    {"zlib", {"renderer/serialized_file.cpp"}},
     {"CLI/", {"tools/"}},
 };
 
