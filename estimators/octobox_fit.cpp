@@ -114,9 +114,11 @@ Fit fit_octants(const PlanePoints& points, const Lanes& box, const Lanes& own_sh
   const Octants own = octant_supports(points);
   const Lanes own_areas = octant_areas(own, radius);
   const Lanes common_areas = octant_areas(split(box), radius);
-  const Float8 share = load8(own_share.data());
-  const Float8 area = (1 - share) * load8(common_areas.data()) + share * load8(own_areas.data());
-  return {count_inside_octants(points, box, own, share), sum8(area)};
+  float area = 0;  // in the order of the octants
+  for (int i = 0; i < kSides; ++i) {
+    area += (1 - own_share[i]) * common_areas[i] + own_share[i] * own_areas[i];
+  }
+  return {count_inside_octants(points, box, own, load8(own_share.data())), area};
 }
 
 /// How far each octant goes by its own box: where it has photons enough (the paper: about 50), and

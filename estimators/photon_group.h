@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <span>
 
 #include "accel/photon_map.h"
@@ -9,7 +10,7 @@
 
 namespace octolux {
 
-/// Eight neighbours, in some order. Lanes without one are infinitely far.
+/// Eight neighbours. Lanes without one are infinitely far.
 struct PhotonGroup {
   Float8 distance2;
   Mask8 photon;
@@ -38,8 +39,8 @@ __attribute__((always_inline)) inline PhotonGroup photon_group(std::span<const N
     from = padded;
   }
   const Float8 low = load8(from), high = load8(from + 4);
-  const Float8 photon = __builtin_shufflevector(low, high, 1, 3, 9, 11, 5, 7, 13, 15);
-  return {__builtin_shufflevector(low, high, 0, 2, 8, 10, 4, 6, 12, 14),
+  const Float8 photon = __builtin_shufflevector(low, high, 1, 3, 5, 7, 9, 11, 13, 15);
+  return {__builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14),
           reinterpret_as<Mask8>(photon)};
 }
 
