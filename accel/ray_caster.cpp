@@ -205,6 +205,26 @@ std::array<PacketHit, RayPacket::kSize> RayCaster::closest_hits(const RayPacket&
   return hits;
 }
 
+void RayCaster::visit_near(Vec3 p, float radius, NearVisitor& visitor) const {
+  struct Visit {
+    const RayCaster& caster;
+    NearVisitor& visitor;
+  } visit{*this, visitor};
+  const auto show = [](RTCPointQueryFunctionArguments* args) {
+    const Visit& v = *static_cast<const Visit*>(args->userPtr);
+    const auto corners = v.caster.triangle(args->geomID, args->primID);
+    const std::uint64_t id = std::uint64_t{args->geomID} << 32 | args->primID;
+    const float wanted = corners ? v.visitor.triangle(id, *corners) : v.visitor.other();
+    if (!(wanted < args->query->radius)) return false;
+    args->query->radius = std::max(wanted, 0.0f);
+    return true;
+  };
+  RTCPointQuery query{p.x, p.y, p.z, 0, radius};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(impl_->scene.get(), &query, &context, show, &visit);
+}
+
 std::optional<std::array<Vec3, 3>> RayCaster::triangle(std::uint32_t shape,
                                                        std::uint32_t primitive) const {
   if (shape >= impl_->shapes.size()) return std::nullopt;

@@ -38,6 +38,16 @@ struct PacketHit {
   bool hit() const { return t < kInfinity; }
 };
 
+/// Is shown what is near a point. Primitives may come twice.
+class NearVisitor {
+ public:
+  virtual ~NearVisitor() = default;
+  /// Returns how near others must be from now on [m]; 0 or less: no more, please.
+  virtual float triangle(std::uint64_t id, const std::array<Vec3, 3>& corners) = 0;
+  /// The same for a shape that is no mesh.
+  virtual float other() = 0;
+};
+
 /// Thread-safe after construction. Uses Embree's robust mode: edges shared by triangles are
 /// watertight, because a ray slipping between two walls is a light leak. (Vertices are so up to
 /// rounding: of rays aimed at one exactly, a few in a thousand pass.)
@@ -54,6 +64,8 @@ class RayCaster {
   bool occluded(const Ray& ray) const;
   /// Closest hits of the active lanes.
   std::array<PacketHit, RayPacket::kSize> closest_hits(const RayPacket& packet) const;
+  /// Shows the primitives whose bounds come nearer to `p` than `radius` [m].
+  void visit_near(Vec3 p, float radius, NearVisitor& visitor) const;
   /// Corners of a primitive that is a triangle.
   std::optional<std::array<Vec3, 3>> triangle(std::uint32_t shape, std::uint32_t primitive) const;
   /// The surface at a hit.

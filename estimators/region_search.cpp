@@ -1,7 +1,10 @@
-// region_search.h: how far the feelers go, and how often.
+// region_search.h: how far the feelers go, and how often. Where the scene says that there is
+// nothing to meet on the way, none are sent.
 #include "estimators/region_search.h"
 
 #include <algorithm>
+
+#include "estimators/clearance.h"
 
 namespace octolux {
 
@@ -10,6 +13,8 @@ namespace {
 /// Length of the first feelers, in units of the guess. Longer ones meet more and cost more in the
 /// open; shorter ones must more often be followed by others near walls.
 constexpr float kMargin = 1.5f;
+/// Clearance, in units of the reach, from which on a look-up within it is worth trying.
+constexpr float kWorthTrying = 0.8f;
 
 /// The distance no two points of the scene exceed, or max_radius.
 float search_limit(const GatherPoint& at, const Bandwidth& bandwidth) {
@@ -47,10 +52,19 @@ RegionDisc find_in_region(const GatherPoint& at, const PhotonMap& map, const Ban
     reach = std::min(reach, limit);
     if (!(reach > 0)) return result;
     feelers.length = reach / std::cos(kPi / static_cast<float>(config.feelers));
-    result.region = FreeRegion(*at.caster, feelers);
-    query.region = &result.region.photons();
-    query.max_radius = reach;
-    const std::span<const Neighbour> found = map.nearest(query, wanted, buffer);
+    const float clear = clearance(*at.caster, feelers, reach);
+    std::span<const Neighbour> found;
+    if (clear >= kWorthTrying * reach) {
+      query.region = nullptr;
+      query.max_radius = clear;
+      found = map.nearest(query, wanted, buffer);
+    }
+    if (found.size() < wanted && clear < reach) {
+      result.region = FreeRegion(*at.caster, feelers);
+      query.region = &result.region.photons();
+      query.max_radius = reach;
+      found = map.nearest(query, wanted, buffer);
+    }
     if (found.size() == wanted) {
       result.disc = {found.first(found.size() - 1), 0, found.back().distance2};
       break;
