@@ -207,17 +207,23 @@ std::array<PacketHit, RayPacket::kSize> RayCaster::closest_hits(const RayPacket&
 
 void RayCaster::visit_near(Vec3 p, float radius, NearVisitor& visitor) const {
   struct Visit {
-    const RayCaster& caster;
+    std::span<const Shape> shapes;
     NearVisitor& visitor;
-  } visit{*this, visitor};
+  } visit{impl_->shapes, visitor};
   const auto show = [](RTCPointQueryFunctionArguments* args) {
     const Visit& v = *static_cast<const Visit*>(args->userPtr);
-    const auto corners = v.caster.triangle(args->geomID, args->primID);
-    const std::uint64_t id = std::uint64_t{args->geomID} << 32 | args->primID;
-    const float wanted = corners ? v.visitor.triangle(id, *corners) : v.visitor.other();
-    if (!(wanted < args->query->radius)) return false;
-    args->query->radius = std::max(wanted, 0.0f);
-    return true;
+    const auto* mesh = std::get_if<TriangleMesh>(&v.shapes[args->geomID].geometry);
+    bool more = true;
+    if (mesh != nullptr) {
+      const auto& corner = mesh->triangles[args->primID];
+      const Vec3* at = mesh->positions.data();
+      const std::uint64_t id = std::uint64_t{args->geomID} << 32 | args->primID;
+      more = v.visitor.triangle(id, at[corner[0]], at[corner[1]], at[corner[2]]);
+    } else {
+      more = v.visitor.other();
+    }
+    if (!more) args->query->radius = 0;
+    return !more;
   };
   RTCPointQuery query{p.x, p.y, p.z, 0, radius};
   RTCPointQueryContext context;

@@ -42,10 +42,10 @@ struct PacketHit {
 class NearVisitor {
  public:
   virtual ~NearVisitor() = default;
-  /// Returns how near others must be from now on [m]; 0 or less: no more, please.
-  virtual float triangle(std::uint64_t id, const std::array<Vec3, 3>& corners) = 0;
+  /// False: no more, please.
+  virtual bool triangle(std::uint64_t id, Vec3 a, Vec3 b, Vec3 c) = 0;
   /// The same for a shape that is no mesh.
-  virtual float other() = 0;
+  virtual bool other() = 0;
 };
 
 /// Thread-safe after construction. Uses Embree's robust mode: edges shared by triangles are

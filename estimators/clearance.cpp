@@ -14,41 +14,41 @@ namespace {
 
 constexpr int kMostTiles = 8;  // more are too many to compare
 
-class Nearest final : public NearVisitor {
+class Obstacles final : public NearVisitor {
  public:
-  Nearest(const FeelerQuery& query, float limit)
+  Obstacles(const FeelerQuery& query, float distance)
       : origin_(query.point.position),
         n_(query.normal),
         edges_(query.edges),
         lift_(feeler_lift(query)),
-        nearest_(limit) {}
+        distance_(distance) {}
 
-  float triangle(std::uint64_t id, const std::array<Vec3, 3>& corners) override {
-    const std::array<Vec3, 3> p{corners[0] - origin_, corners[1] - origin_, corners[2] - origin_};
-    const float z[3] = {dot(p[0], n_), dot(p[1], n_), dot(p[2], n_)};
-    const float low = std::min({z[0], z[1], z[2]}), high = std::max({z[0], z[1], z[2]});
+  bool triangle(std::uint64_t id, Vec3 a, Vec3 b, Vec3 c) override {
+    const std::array<Vec3, 3> p{a - origin_, b - origin_, c - origin_};
+    const float za = dot(p[0], n_), zb = dot(p[1], n_), zc = dot(p[2], n_);
+    const float low = std::min(std::min(za, zb), zc), high = std::max(std::max(za, zb), zc);
     if (high > 0.5f * lift_ && low < 2 * lift_) {
-      nearest_ = std::min(nearest_, distance_to_wall(p));
+      met_ = met_ || distance_to_wall(p) < distance_;
     } else if (edges_ && high <= 0.5f * lift_ && low >= -0.5f * lift_) {
       add_tile(id, p);
     }
-    return nearest_;
+    return !met_;
   }
-  float other() override { return nearest_ = 0; }
+  bool other() override {
+    met_ = true;
+    return false;
+  }
 
-  float nearest() const {
-    if (!edges_ || nearest_ == 0) return nearest_;
-    float nearest = 0;
+  bool none() const {
+    if (met_ || !edges_) return !met_;
+    bool here = false;
     for (int i = 0; i < tile_count_; ++i) {
-      if (contains_origin(tiles_[i])) nearest = nearest_;
-    }
-    for (int i = 0; i < tile_count_ && nearest > 0; ++i) {
+      here = here || contains_origin(tiles_[i]);
       for (int k = 0; k < 3; ++k) {
-        const float d = distance_to_edge(tiles_[i], k);
-        if (d < nearest && !goes_on(i, k)) nearest = d;
+        if (distance_to_edge(tiles_[i], k) < distance_ && !goes_on(i, k)) return false;
       }
     }
-    return nearest;
+    return here;
   }
 
  private:
@@ -76,11 +76,8 @@ class Nearest final : public NearVisitor {
     for (int i = 0; i < tile_count_; ++i) {
       if (tiles_[i].id == id) return;
     }
-    if (tile_count_ == kMostTiles) {
-      nearest_ = 0;
-    } else {
-      tiles_[tile_count_++] = {id, p};
-    }
+    met_ = tile_count_ == kMostTiles;
+    if (!met_) tiles_[tile_count_++] = {id, p};
   }
 
   /// On which side of edge k `p` is.
@@ -114,17 +111,19 @@ class Nearest final : public NearVisitor {
   Vec3 origin_, n_;
   bool edges_;
   float lift_;
-  float nearest_;
+  float distance_;
+  bool met_ = false;
   int tile_count_ = 0;
   std::array<Tile, kMostTiles> tiles_;  // relative to the query
 };
 
 }  // namespace
 
-float clearance(const RayCaster& caster, const FeelerQuery& query, float limit) {
-  Nearest nearest(query, limit);
-  caster.visit_near(query.point.position, limit, nearest);
-  return nearest.nearest();
+bool is_clear(const RayCaster& caster, const FeelerQuery& query, float distance) {
+  constexpr float kRounding = 1 + 0x1p-16f;
+  Obstacles obstacles(query, distance * kRounding);
+  caster.visit_near(query.point.position, distance * kRounding, obstacles);
+  return obstacles.none();
 }
 
 }  // namespace octolux

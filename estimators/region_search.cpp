@@ -13,8 +13,6 @@ namespace {
 /// Length of the first feelers, in units of the guess. Longer ones meet more and cost more in the
 /// open; shorter ones must more often be followed by others near walls.
 constexpr float kMargin = 1.5f;
-/// Clearance, in units of the reach, from which on a look-up within it is worth trying.
-constexpr float kWorthTrying = 0.8f;
 
 /// The distance no two points of the scene exceed, or max_radius.
 float search_limit(const GatherPoint& at, const Bandwidth& bandwidth) {
@@ -52,17 +50,13 @@ RegionDisc find_in_region(const GatherPoint& at, const PhotonMap& map, const Ban
     reach = std::min(reach, limit);
     if (!(reach > 0)) return result;
     feelers.length = reach / std::cos(kPi / static_cast<float>(config.feelers));
-    const float clear = clearance(*at.caster, feelers, reach);
-    std::span<const Neighbour> found;
-    if (clear >= kWorthTrying * reach) {
-      query.region = nullptr;
-      query.max_radius = clear;
-      found = map.nearest(query, wanted, buffer);
-    }
-    if (found.size() < wanted && clear < reach) {
+    query.region = nullptr;
+    query.max_radius = reach;
+    std::span<const Neighbour> found = map.nearest(query, wanted, buffer);
+    const float needed = found.size() == wanted ? std::sqrt(found.back().distance2) : reach;
+    if (!is_clear(*at.caster, feelers, needed)) {
       result.region = FreeRegion(*at.caster, feelers);
       query.region = &result.region.photons();
-      query.max_radius = reach;
       found = map.nearest(query, wanted, buffer);
     }
     if (found.size() == wanted) {
