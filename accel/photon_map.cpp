@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "accel/photon_filter.h"
@@ -181,17 +182,21 @@ float PhotonMap::rough_distance(Vec3 position, std::size_t k) const {
   const std::uint32_t b = walk.next<PhotonTreeWalk::Order::nearest_first>(kInfinity);
   if (b == PhotonTreeWalk::kEnd) return kInfinity;
   const PhotonTree::Block& block = tree_.block(b);
-  float sum = 0;
-  float count = 0;
-  for (std::uint32_t lane = 0; lane < PhotonTree::kBlockSize; ++lane) {
-    const float dx = block.x[lane] - position.x;
-    const float dy = block.y[lane] - position.y;
-    const float dz = block.z[lane] - position.z;
-    const float d2 = dx * dx + dy * dy + dz * dz;
-    const bool there = d2 < kInfinity;
-    sum += there ? d2 : 0;
-    count += there ? 1 : 0;
+  constexpr std::uint32_t kHalf = PhotonTree::kBlockSize / 2;
+  float sums[kHalf] = {}, counts[kHalf] = {};  // of every other lane, for SIMD
+  for (std::uint32_t half = 0; half < 2; ++half) {
+    for (std::uint32_t i = 0; i < kHalf; ++i) {
+      const std::uint32_t lane = half * kHalf + i;
+      const float dx = block.x[lane] - position.x;
+      const float dy = block.y[lane] - position.y;
+      const float dz = block.z[lane] - position.z;
+      const float d2 = dx * dx + dy * dy + dz * dz;
+      sums[i] += d2 < kInfinity ? d2 : 0;
+      counts[i] += d2 < kInfinity ? 1 : 0;
+    }
   }
+  const float sum = std::accumulate(sums, sums + kHalf, 0.0f);
+  const float count = std::accumulate(counts, counts + kHalf, 0.0f);
   // Two random points of a square leaf are at a mean squared distance of a third of its area.
   const float area = 3 * sum / count;
   return std::sqrt(area * (static_cast<float>(k) / count) * kInvPi);

@@ -205,11 +205,12 @@ std::array<PacketHit, RayPacket::kSize> RayCaster::closest_hits(const RayPacket&
   return hits;
 }
 
-void RayCaster::visit_near(Vec3 p, float radius, NearVisitor& visitor) const {
+void RayCaster::visit_near(Vec3 p, float radius, NearFunction function, void* visitor) const {
   struct Visit {
-    std::span<const Shape> shapes;
-    NearVisitor& visitor;
-  } visit{impl_->shapes, visitor};
+    const Shape* shapes;
+    NearFunction function;
+    void* visitor;
+  } visit{impl_->shapes.data(), function, visitor};
   const auto show = [](RTCPointQueryFunctionArguments* args) {
     const Visit& v = *static_cast<const Visit*>(args->userPtr);
     const auto* mesh = std::get_if<TriangleMesh>(&v.shapes[args->geomID].geometry);
@@ -217,10 +218,11 @@ void RayCaster::visit_near(Vec3 p, float radius, NearVisitor& visitor) const {
     if (mesh != nullptr) {
       const auto& corner = mesh->triangles[args->primID];
       const Vec3* at = mesh->positions.data();
-      const std::uint64_t id = std::uint64_t{args->geomID} << 32 | args->primID;
-      more = v.visitor.triangle(id, at[corner[0]], at[corner[1]], at[corner[2]]);
+      const NearTriangle triangle{std::uint64_t{args->geomID} << 32 | args->primID, at[corner[0]],
+                                  at[corner[1]], at[corner[2]]};
+      more = v.function(v.visitor, &triangle);
     } else {
-      more = v.visitor.other();
+      more = v.function(v.visitor, nullptr);
     }
     if (!more) args->query->radius = 0;
     return !more;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kMostTiles = 8;  // more are too many to compare
 
-class Obstacles final : public NearVisitor {
+class Obstacles {
  public:
   Obstacles(const FeelerQuery& query, float distance)
       : origin_(query.point.position),
@@ -23,20 +23,21 @@ class Obstacles final : public NearVisitor {
         lift_(feeler_lift(query)),
         distance_(distance) {}
 
-  bool triangle(std::uint64_t id, Vec3 a, Vec3 b, Vec3 c) override {
-    const std::array<Vec3, 3> p{a - origin_, b - origin_, c - origin_};
-    const float za = dot(p[0], n_), zb = dot(p[1], n_), zc = dot(p[2], n_);
+  /// False once there is one.
+  bool visit(const NearTriangle* triangle) {
+    if (triangle == nullptr) {
+      met_ = true;
+      return false;
+    }
+    const Vec3 a = triangle->a - origin_, b = triangle->b - origin_, c = triangle->c - origin_;
+    const float za = dot(a, n_), zb = dot(b, n_), zc = dot(c, n_);
     const float low = std::min(std::min(za, zb), zc), high = std::max(std::max(za, zb), zc);
     if (high > 0.5f * lift_ && low < 2 * lift_) {
-      met_ = met_ || distance_to_wall(p) < distance_;
+      met_ = met_ || distance_to_wall({a, b, c}) < distance_;
     } else if (edges_ && high <= 0.5f * lift_ && low >= -0.5f * lift_) {
-      add_tile(id, p);
+      add_tile(triangle->id, {a, b, c});
     }
     return !met_;
-  }
-  bool other() override {
-    met_ = true;
-    return false;
   }
 
   bool none() const {
@@ -122,7 +123,10 @@ class Obstacles final : public NearVisitor {
 bool is_clear(const RayCaster& caster, const FeelerQuery& query, float distance) {
   constexpr float kRounding = 1 + 0x1p-16f;
   Obstacles obstacles(query, distance * kRounding);
-  caster.visit_near(query.point.position, distance * kRounding, obstacles);
+  const auto visit = [](void* visitor, const NearTriangle* triangle) {
+    return static_cast<Obstacles*>(visitor)->visit(triangle);
+  };
+  caster.visit_near(query.point.position, distance * kRounding, visit, &obstacles);
   return obstacles.none();
 }
 
