@@ -30,6 +30,9 @@ class Obstacles {
       return false;
     }
     const Vec3 a = triangle->a - origin_, b = triangle->b - origin_, c = triangle->c - origin_;
+    if (is_beyond(a.x, b.x, c.x) || is_beyond(a.y, b.y, c.y) || is_beyond(a.z, b.z, c.z)) {
+      return true;  // the ray caster shows whole leaves
+    }
     const float za = dot(a, n_), zb = dot(b, n_), zc = dot(c, n_);
     const float low = std::min(std::min(za, zb), zc), high = std::max(std::max(za, zb), zc);
     if (high > 0.5f * lift_ && low < 2 * lift_) {
@@ -53,6 +56,10 @@ class Obstacles {
   }
 
  private:
+  bool is_beyond(float a, float b, float c) const {
+    return std::min(std::min(a, b), c) > distance_ || std::max(std::max(a, b), c) < -distance_;
+  }
+
   struct Tile {
     std::uint64_t id;
     std::array<Vec3, 3> p;

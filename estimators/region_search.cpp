@@ -44,15 +44,17 @@ RegionDisc find_in_region(const GatherPoint& at, const PhotonMap& map, const Ban
   PhotonQuery query = photon_query(at, bandwidth);
   FeelerQuery feelers = feeler_query(at, config.feelers);
   feelers.edges = config.edges;
-  float reach = kMargin * map.rough_distance(query.position, wanted);
-  if (!(reach > 0)) reach = limit;
+  query.rough_radius = kMargin;
+  float reach = limit;
   for (;; reach *= 2) {
-    reach = std::min(reach, limit);
+    query.max_radius = std::min(reach, limit);
+    if (query.region != nullptr) result.region = FreeRegion(at.at.facing_normal());
+    query.region = nullptr;
+    std::span<const Neighbour> found = map.nearest(query, wanted, buffer);
+    reach = query.max_radius = buffer.max_radius;
+    query.rough_radius = 0;
     if (!(reach > 0)) return result;
     feelers.length = reach / std::cos(kPi / static_cast<float>(config.feelers));
-    query.region = nullptr;
-    query.max_radius = reach;
-    std::span<const Neighbour> found = map.nearest(query, wanted, buffer);
     const float needed = found.size() == wanted ? std::sqrt(found.back().distance2) : reach;
     if (!is_clear(*at.caster, feelers, needed)) {
       result.region = FreeRegion(*at.caster, feelers);
