@@ -9,6 +9,7 @@
 
 #include "core/image_io.h"
 #include "renderer/picture.h"
+#include "tests/regression/bits.h"
 #include "tests/regression/cases.h"
 #include "tools/progress.h"
 
@@ -17,18 +18,18 @@ namespace {
 
 constexpr std::uint64_t kSeed = 20'061;  // no test's seed
 
-RenderConfig reference_config(const RegressionCase& c) {
+RenderConfig reference_config() {
   RenderConfig config = path_config(0, kSeed);
-  config.stop.error = c.reference_error;
+  config.stop.error = kReferenceError;
   return config;
 }
 
 void make_reference(const RegressionCase& c, const std::string& commit) {
   const auto scene = load_case(c);
-  const RenderConfig config = reference_config(c);
+  const RenderConfig config = reference_config();
   ProgressPrinter printer(default_verbosity());
-  printer.say(
-      fmt::format("{} ({}x{}, to {:g} %)", c.name, c.width, c.height, 100 * c.reference_error));
+  printer.say(fmt::format("{} ({}x{}, to {:g} %)", c.name, c.film.width, c.film.height,
+                          100 * kReferenceError));
   Watch watch([&](const Progress& progress, const Film&) { printer.update(progress); });
   const RenderResult result = render(*scene, config, watch);
   ExrFile file = make_exr(*scene, config, result.progress, result.film, false);
@@ -44,22 +45,25 @@ void make_reference(const RegressionCase& c, const std::string& commit) {
 }  // namespace
 }  // namespace octolux::test
 
-/// make_references COMMIT [NAME...]
+/// make_references COMMIT [NAME...], or make_references --hashes.
 int main(int argc, char** argv) {
   using namespace octolux::test;
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (words.empty()) {
-    std::fprintf(stderr,
-                 "make_references: expected COMMIT [NAME...]; see tools/update-references\n");
+    std::fprintf(stderr, "make_references: expected a commit; see tools/update-references\n");
     return 2;
   }
   try {
-    if (words.size() == 1) {
-      for (const RegressionCase& c : regression_cases()) make_reference(c, words[0]);
+    if (words[0] == "--hashes") {
+      store_hashes();
+      return 0;
     }
-    for (std::size_t i = 1; i < words.size(); ++i) {
-      make_reference(regression_case(words[i]), words[0]);
+    std::vector<std::string> names(words.begin() + 1, words.end());
+    for (const RegressionCase& c : regression_cases()) {
+      if (words.size() == 1) names.push_back(c.name);
     }
+    for (const std::string& name : names) regression_case(name);  // all known?
+    for (const std::string& name : names) make_reference(regression_case(name), words[0]);
   } catch (const octolux::Error& e) {
     std::fprintf(stderr, "make_references: %s\n", e.what());
     return 2;

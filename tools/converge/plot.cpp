@@ -144,6 +144,17 @@ Drawing draw(const Study& study) {
   frame.x = {0, 1, middle + 20, kWidth - kRight, true};
   frame.title = "bias, where it is above chance", frame.y_title = "bias [%]";
   draw_series(drawing, study, make_panel(study, bias_point, frame), bias_point);
+  const bool none = std::all_of(study.series.begin(), study.series.end(), [](const Series& series) {
+    return points_of(series, bias_point).empty();
+  });
+  if (none) {
+    drawing.items.push_back(Words{{(frame.x.from + frame.x.to) / 2, small_top + kSmallHeight / 2},
+                                  "none",
+                                  Words::Anchor::middle,
+                                  false,
+                                  false,
+                                  kGuide});
+  }
   return drawing;
 }
 

@@ -101,8 +101,8 @@ const std::vector<Formula>& formulas() {
       {"error", "sqrt(relMSE - the reference's own noise^2), the mean over seeds"},
       {"noise", "sqrt(mean of s^2/(y^2+0.01)), s^2 the variance between seeds"},
       {"bias",
-       "sqrt(error^2 - noise^2), 0 where that is negative; what more passes do not average "
-       "away"},
+       "sqrt(error^2 - noise^2), what more seeds do not average away; in tables, < : not above "
+       "chance, with two standard errors added"},
       {"slope",
        "of log error over log time, by least squares for each seed; mean and standard "
        "error over seeds. Noise alone falls with slope -0.5"},
@@ -117,6 +117,15 @@ void conclude(Study& study) {
     if (!series.points.empty()) warn(study, series);
   }
   for (const double target : kTargets) study.winners.push_back(find_winner(study.series, target));
+}
+
+std::string bias_text(const SeriesPoint& p) {
+  if (!p.bias2) return "-";
+  const double margin = 2 * p.bias2_error.value_or(0);
+  if (*p.bias2 > margin || !p.bias2_error) {
+    return fmt::format("{:.2f}", 100 * *root(p.bias2));
+  }
+  return fmt::format("< {:.2f}", 100 * *root(std::max(0.0, *p.bias2) + margin));
 }
 
 std::string to_text(const std::optional<Slope>& slope) {
@@ -138,7 +147,7 @@ std::string to_text(const Study& study) {
     for (const SeriesPoint& p : s.points) {
       text += fmt::format("{:<{}}{:>7}{:>10.3g}{:>11.3e}{:>9.2f}{:>9}{:>9}\n", s.name, width,
                           p.passes > 0 ? fmt::format("{}", p.passes) : "-", p.seconds, p.rel_mse,
-                          100 * p.error(), percent(root(p.noise2)), percent(root(p.bias2)));
+                          100 * p.error(), percent(root(p.noise2)), bias_text(p));
     }
   }
   text += fmt::format("\n{:<{}}{:>16}{:>12}{:>12}{:>12}\n", "", width, "slope", "to 10 %", "to 3 %",

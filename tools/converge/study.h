@@ -47,6 +47,10 @@ struct Formula {
 };
 const std::vector<Formula>& formulas();
 
+/// [%], two decimals: "1.25"; "< 0.80" (with two standard errors) for what is not above chance;
+/// "-".
+std::string bias_text(const SeriesPoint& point);
+
 /// "-0.50 +- 0.02", or "-".
 std::string to_text(const std::optional<Slope>& slope);
 

@@ -57,13 +57,13 @@ std::string point_table(const Study& study) {
   for (const Series& series : study.series) {
     for (const SeriesPoint& p : series.points) {
       const bool first = &p == &series.points.front();
-      html +=
-          fmt::format("<tr{}>", first ? " class=\"first\"" : "") + cell(first ? series.name : "") +
-          cell(p.passes > 0 ? fmt::format("{}", p.passes) : "-") +
-          cell(fmt::format("{:.3g}", p.seconds)) + cell(fmt::format("{:.3e}", p.rel_mse)) +
-          cell(p.rel_mse_error >= 0 ? fmt::format("{:.1e}", p.rel_mse_error) : "-") +
-          cell(fmt::format("{:.2f}", 100 * p.error())) + cell(percent_of_root(p.noise2)) +
-          cell(percent_of_root(p.bias2)) + cell(fmt::format("{:.4f}", p.mean_ratio)) + "</tr>\n";
+      html += fmt::format("<tr{}>", first ? " class=\"first\"" : "") +
+              cell(first ? series.name : "") +
+              cell(p.passes > 0 ? fmt::format("{}", p.passes) : "-") +
+              cell(fmt::format("{:.3g}", p.seconds)) + cell(fmt::format("{:.3e}", p.rel_mse)) +
+              cell(p.rel_mse_error >= 0 ? fmt::format("{:.1e}", p.rel_mse_error) : "-") +
+              cell(fmt::format("{:.2f}", 100 * p.error())) + cell(percent_of_root(p.noise2)) +
+              cell(bias_text(p)) + cell(fmt::format("{:.4f}", p.mean_ratio)) + "</tr>\n";
     }
   }
   return html + "</tbody></table>\n";

@@ -34,12 +34,13 @@ std::vector<double> even_ticks(double low, double high) {
   return ticks;
 }
 
-/// Powers of ten; where there are few of them also 2 and 5, or 3 times them.
+/// Powers of ten, and the fewer of them the more of their multiples.
 std::vector<double> log_ticks(double low, double high) {
   const double decades = std::log10(high / low);
   std::vector<double> steps{1};
   if (decades < 4.5) steps = {1, 3};
   if (decades < 2.5) steps = {1, 2, 5};
+  if (decades < 1.3) steps = {1, 1.5, 2, 3, 4, 5, 7};
   std::vector<double> ticks;
   const auto last = std::ceil(std::log10(high));
   for (double power = std::floor(std::log10(low)); power <= last; ++power) {
