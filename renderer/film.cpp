@@ -2,6 +2,8 @@
 #include "renderer/film.h"
 
 #include <cmath>
+#include <cstring>
+#include <type_traits>
 
 #include "core/check.h"
 
@@ -114,6 +116,32 @@ double Film::relative_error() const {
         std::sqrt(variance_of_mean(sum, pixel.luminance_square, passes_)) / (sum / passes_ + floor);
   }
   return error / static_cast<double>(pixels_.size());
+}
+
+/// What stands before the pixels in a film's bytes.
+struct Film::Tally {
+  std::int64_t passes = 0, non_finite = 0;
+  Place first_non_finite;
+};
+
+std::string Film::to_bytes() const {
+  static_assert(std::is_trivially_copyable_v<Pixel> && std::is_trivially_copyable_v<Tally>);
+  const Tally tally{passes_, non_finite_, first_non_finite_};
+  std::string bytes(sizeof tally + pixels_.size() * sizeof(Pixel), '\0');
+  std::memcpy(bytes.data(), &tally, sizeof tally);
+  std::memcpy(bytes.data() + sizeof tally, pixels_.data(), bytes.size() - sizeof tally);
+  return bytes;
+}
+
+bool Film::from_bytes(std::string_view bytes) {
+  Tally tally;
+  if (bytes.size() != sizeof tally + pixels_.size() * sizeof(Pixel)) return false;
+  std::memcpy(&tally, bytes.data(), sizeof tally);
+  std::memcpy(pixels_.data(), bytes.data() + sizeof tally, bytes.size() - sizeof tally);
+  passes_ = static_cast<int>(tally.passes);
+  non_finite_ = tally.non_finite;
+  first_non_finite_ = tally.first_non_finite;
+  return true;
 }
 
 }  // namespace octolux

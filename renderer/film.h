@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/image.h"
@@ -57,7 +59,13 @@ class Film {
   };
   Place first_non_finite() const { return first_non_finite_; }
 
+  /// All sums, exactly, as bytes of this machine; for checkpoint.h, which knows whose they are.
+  std::string to_bytes() const;
+  /// False, and nothing done, unless `bytes` have the length of a film of this one's size.
+  bool from_bytes(std::string_view bytes);
+
  private:
+  struct Tally;
   struct Pixel {
     Rgb direct, caustic, indirect, albedo;  // sums over passes
     Vec3 normal;

@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "core/check.h"
 #include "renderer/eye_pass.h"
 #include "renderer/path_pass.h"
 
@@ -131,7 +132,8 @@ StopConfig default_stop(Integrator integrator) {
   return stop;
 }
 
-RenderResult render(const Scene& scene, const RenderConfig& wanted, RenderObserver& observer) {
+RenderResult render(const Scene& scene, const RenderConfig& wanted, RenderObserver& observer,
+                    std::optional<RenderResult> start) {
   check(wanted);
   const FilmSize& film = scene.film;
   const RenderConfig config =
@@ -139,10 +141,14 @@ RenderResult render(const Scene& scene, const RenderConfig& wanted, RenderObserv
   const StopConfig stop = has_rule(config.stop) ? config.stop : default_stop(config.integrator);
   const Job job{scene, config, LightSampler(scene), make_estimator(config.estimator)};
   Stopwatch watch;
-  RenderResult result{Film(film.crop_width, film.crop_height), {}, false};
+  RenderResult result =
+      start ? std::move(*start) : RenderResult{Film(film.crop_width, film.crop_height), {}, false};
+  OCTOLUX_CHECK(result.film.width() == film.crop_width && result.film.height() == film.crop_height);
   Progress& progress = result.progress;
+  const double seconds_before = progress.seconds;
   progress.total_passes = pass_limit(stop, config.eye.samples_per_pass);
-  do {
+  result.interrupted = false;
+  while (!result.interrupted && (progress.passes == 0 || !finished(stop, progress))) {
     const PassKey key = job.key(progress.passes);
     const PixelPass pass = config.integrator == Integrator::photon
                                ? photon_mapping_pass(job, key, progress)
@@ -150,12 +156,12 @@ RenderResult render(const Scene& scene, const RenderConfig& wanted, RenderObserv
     result.film.note_non_finite(pass.non_finite, pass.first_non_finite);
     result.film.add(pass.image);
     ++progress.passes;
-    progress.seconds = watch.seconds();
+    progress.seconds = seconds_before + watch.seconds();
     progress.error = result.film.relative_error();
     progress.rays_per_second = static_cast<double>(progress.rays) / progress.seconds;
     progress.remaining_seconds = remaining_seconds(stop, progress);
     result.interrupted = !observer.pass_done(progress, result.film);
-  } while (!result.interrupted && !finished(stop, progress));
+  }
   return result;
 }
 

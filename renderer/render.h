@@ -1,6 +1,8 @@
 // The progressive loop (Knaus & Zwicker 2011): independent passes, whose mean is the picture.
 #pragma once
 
+#include <optional>
+
 #include "renderer/config.h"
 #include "renderer/film.h"
 #include "renderer/scene.h"
@@ -18,7 +20,7 @@ struct Timing {
 struct Progress {
   int passes = 0;
   int total_passes = 0;           // 0: decided by time or error
-  double seconds = 0;             // since render() was called
+  double seconds = 0;             // spent by render(), interruptions left out
   double remaining_seconds = -1;  // below 0: unknown
   double error = 1;               // Film::relative_error()
   double rays_per_second = 0;
@@ -44,8 +46,11 @@ struct RenderResult {
 };
 
 /// Renders until the first stop rule is reached; with none set, until the defaults
-/// (default_stop). Throws Error for settings out of range, before any work.
-RenderResult render(const Scene& scene, const RenderConfig& config, RenderObserver& observer);
+/// (default_stop). Throws Error for settings out of range, before any work. Goes on from `start`,
+/// if given, the result of the same scene and settings (stop rules may differ): the picture is bit
+/// by bit that of one render without a break.
+RenderResult render(const Scene& scene, const RenderConfig& config, RenderObserver& observer,
+                    std::optional<RenderResult> start = std::nullopt);
 
 /// Stop rules of a render that was given none.
 StopConfig default_stop(Integrator integrator);

@@ -1,7 +1,10 @@
 // session.h.
 #include "tools/session.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstdio>
 #include <utility>
 
 namespace octolux {
@@ -36,6 +39,17 @@ void Session::save(const Progress& progress, const Film& film) {
   saved_passes_ = progress.passes;
   const Seconds spent = last_save_ - start;
   interval_ = std::max(interval_, spent / kSaveShare);
+}
+
+bool report_non_finite(const RenderResult& result, std::uint64_t seed) {
+  const std::int64_t photons = result.progress.rejected_photons;
+  if (result.film.non_finite() == 0 && photons == 0) return true;
+  const Film::Place place = result.film.first_non_finite();
+  fmt::print(stderr,
+             "octolux: left out {} samples (first: pixel {},{} of pass {}, seed {}) and {} "
+             "photons that were not finite: please report this\n",
+             result.film.non_finite(), place.x, place.y, place.pass, seed, photons);
+  return false;
 }
 
 }  // namespace octolux

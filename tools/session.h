@@ -36,4 +36,7 @@ class Session final : public RenderObserver {
   int saved_passes_ = 0;  // in the picture on disk
 };
 
+/// True if all samples and photons were finite; otherwise says on stderr how many were not.
+bool report_non_finite(const RenderResult& result, std::uint64_t seed);
+
 }  // namespace octolux
