@@ -62,7 +62,8 @@ void ProgressPrinter::update(const Progress& progress) {
     bar_drawn_ = true;
     return;
   }
-  if (last_line_ >= 0 && progress.seconds - last_line_ < kSecondsBetweenLines) return;
+  const double since_last = progress.seconds - last_line_;  // below 0: another render has begun
+  if (last_line_ >= 0 && since_last >= 0 && since_last < kSecondsBetweenLines) return;
   last_line_ = progress.seconds;
   fmt::print(stderr, "{}\n", describe(progress));
 }
