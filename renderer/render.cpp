@@ -104,12 +104,6 @@ bool has_rule(const StopConfig& stop) {
 /// The error is only trusted once this many passes have had their say.
 constexpr int kPassesForError = 4;
 
-bool finished(const StopConfig& stop, const Progress& p) {
-  if (p.total_passes > 0 && p.passes >= p.total_passes) return true;
-  if (stop.seconds > 0 && p.seconds + 0.5 * p.seconds / p.passes >= stop.seconds) return true;
-  return stop.error > 0 && p.passes >= kPassesForError && p.error <= stop.error;
-}
-
 /// Time still needed by the rule that will be reached first, as far as can be foreseen.
 double remaining_seconds(const StopConfig& stop, const Progress& p) {
   const double per_pass = p.seconds / p.passes;
@@ -125,6 +119,14 @@ double remaining_seconds(const StopConfig& stop, const Progress& p) {
 
 }  // namespace
 
+bool finished(const RenderConfig& config, const Progress& p) {
+  const StopConfig& stop = config.stop;
+  const int limit = pass_limit(stop, config.eye.samples_per_pass);
+  if (limit > 0 && p.passes >= limit) return true;
+  if (stop.seconds > 0 && p.seconds + 0.5 * p.seconds / p.passes >= stop.seconds) return true;
+  return stop.error > 0 && p.passes >= kPassesForError && p.error <= stop.error;
+}
+
 StopConfig default_stop(Integrator integrator) {
   StopConfig stop;
   stop.passes = integrator == Integrator::photon ? 256 : 1024;
@@ -136,9 +138,9 @@ RenderResult render(const Scene& scene, const RenderConfig& wanted, RenderObserv
                     std::optional<RenderResult> start) {
   check(wanted);
   const FilmSize& film = scene.film;
-  const RenderConfig config =
+  RenderConfig config =
       resolved(wanted, static_cast<std::int64_t>(film.crop_width) * film.crop_height);
-  const StopConfig stop = has_rule(config.stop) ? config.stop : default_stop(config.integrator);
+  if (!has_rule(config.stop)) config.stop = default_stop(config.integrator);
   const Job job{scene, config, LightSampler(scene), make_estimator(config.estimator)};
   Stopwatch watch;
   RenderResult result =
@@ -146,9 +148,9 @@ RenderResult render(const Scene& scene, const RenderConfig& wanted, RenderObserv
   OCTOLUX_CHECK(result.film.width() == film.crop_width && result.film.height() == film.crop_height);
   Progress& progress = result.progress;
   const double seconds_before = progress.seconds;
-  progress.total_passes = pass_limit(stop, config.eye.samples_per_pass);
+  progress.total_passes = pass_limit(config.stop, config.eye.samples_per_pass);
   result.interrupted = false;
-  while (!result.interrupted && (progress.passes == 0 || !finished(stop, progress))) {
+  while (!result.interrupted && (progress.passes == 0 || !finished(config, progress))) {
     const PassKey key = job.key(progress.passes);
     const PixelPass pass = config.integrator == Integrator::photon
                                ? photon_mapping_pass(job, key, progress)
@@ -156,10 +158,11 @@ RenderResult render(const Scene& scene, const RenderConfig& wanted, RenderObserv
     result.film.note_non_finite(pass.non_finite, pass.first_non_finite);
     result.film.add(pass.image);
     ++progress.passes;
-    progress.seconds = seconds_before + watch.seconds();
+    progress.pass_seconds = seconds_before + watch.seconds() - progress.seconds;
+    progress.seconds += progress.pass_seconds;
     progress.error = result.film.relative_error();
     progress.rays_per_second = static_cast<double>(progress.rays) / progress.seconds;
-    progress.remaining_seconds = remaining_seconds(stop, progress);
+    progress.remaining_seconds = remaining_seconds(config.stop, progress);
     result.interrupted = !observer.pass_done(progress, result.film);
   }
   return result;

@@ -21,6 +21,7 @@ struct Progress {
   int passes = 0;
   int total_passes = 0;           // 0: decided by time or error
   double seconds = 0;             // spent by render(), interruptions left out
+  double pass_seconds = 0;        // of them, in the last pass
   double remaining_seconds = -1;  // below 0: unknown
   double error = 1;               // Film::relative_error()
   double rays_per_second = 0;
@@ -51,6 +52,10 @@ struct RenderResult {
 /// by bit that of one render without a break.
 RenderResult render(const Scene& scene, const RenderConfig& config, RenderObserver& observer,
                     std::optional<RenderResult> start = std::nullopt);
+
+/// Do the config's stop rules, none of which need be set, end a render that has come this far, at
+/// least one pass?
+bool finished(const RenderConfig& config, const Progress& progress);
 
 /// Stop rules of a render that was given none.
 StopConfig default_stop(Integrator integrator);

@@ -16,7 +16,7 @@ namespace {
 constexpr int kFault = 1;
 constexpr int kBadInput = 2;
 constexpr char kNoCommand[] =
-    "no command given; legal: compare, converge, info, lab, render; octolux --help says more";
+    "no command given; legal: ab, compare, converge, info, lab, render; octolux --help says more";
 
 int complain(const std::string& message, int exit_code) {
   fmt::print(stderr, "octolux: {}\n", message);
@@ -74,6 +74,7 @@ int run(int argc, char** argv) {
   commands.push_back(make_info_command(app));
   commands.push_back(make_lab_command(app));
   commands.push_back(make_compare_command(app));
+  commands.push_back(make_ab_command(app, join_arguments(argc, argv)));
   commands.push_back(make_converge_command(app, join_arguments(argc, argv)));
   check_verb(app, argc, argv);
   try {

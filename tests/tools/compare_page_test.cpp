@@ -3,18 +3,18 @@
 #include <zlib.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 #include "core/file_io.h"
+#include "tests/tools/browser.h"
 #include "tests/tools/pictures.h"
-#include "tests/tools/program.h"
 #include "tools/compare/page.h"
 
 namespace octolux {
 namespace {
 
 using test::constant;
+using test::data_of;
 using test::run_program;
 using test::TemporaryFolder;
 
@@ -52,17 +52,6 @@ TEST(Page, ViewsAreCurvesUnlessChannelsMix) {
   EXPECT_EQ(cube["table"].get<std::string>().size(), 49u * 49 * 49 * 4);
 }
 
-std::string between(const std::string& text, const std::string& begin, const std::string& end) {
-  const auto from = text.find(begin);
-  if (from == std::string::npos) return "";
-  const auto start = from + begin.size();
-  return text.substr(start, text.find(end, start) - start);
-}
-
-std::string data_of(const std::string& html) {
-  return between(html, "<script type=\"application/json\" id=\"data\">", "</script>");
-}
-
 TEST(Page, TextCannotEndAScript) {
   Page page;
   page.title = "</script><script>alert(1)</script>";
@@ -86,9 +75,7 @@ TEST(Page, LargePicturesAreShrunkAndItSaysSo) {
 class PageInBrowserSlow : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (std::system("command -v chromium >/dev/null 2>&1") != 0) {
-      GTEST_SKIP() << "no chromium here; apt-get install chromium, and the page is tested in it";
-    }
+    if (!test::has_browser()) GTEST_SKIP() << test::kNoBrowser;
     write_exr(folder_ / "y.exr", test::picture("", picture(1)).file);
     write_exr(folder_ / "bright.exr", test::picture("", picture(1.3f)).file);
     Image broken = picture(0.9f);
@@ -113,21 +100,7 @@ class PageInBrowserSlow : public ::testing::Test {
     return test::read_file(folder_ / "p.html");
   }
 
-  /// What the page's self-test says, as JSON; its console must stay silent.
-  nlohmann::json test_page() {
-    const std::string command =
-        "cd '" + folder_.path() +
-        "' && HOME=$PWD timeout 120 chromium --headless --no-sandbox --disable-gpu "
-        "--disable-dev-shm-usage --user-data-dir=profile --enable-logging=stderr "
-        "--virtual-time-budget=30000 --dump-dom \"file://$PWD/p.html?selftest\" >dom 2>log";
-    EXPECT_EQ(std::system(command.c_str()), 0) << test::read_file(folder_ / "log");
-    const std::string log = test::read_file(folder_ / "log");
-    EXPECT_EQ(log.find("CONSOLE"), std::string::npos) << log;
-    const std::string result =
-        between(test::read_file(folder_ / "dom"), "<pre id=\"selftest\">", "</pre>");
-    EXPECT_NE(result, "") << log;
-    return result.empty() ? nlohmann::json{{"passed", false}} : nlohmann::json::parse(result);
-  }
+  nlohmann::json test_page() { return test::self_test(folder_, "p.html"); }
 
   TemporaryFolder folder_;
 };

@@ -34,7 +34,7 @@ int text_lines(const std::vector<Panel>& panels) {
   return static_cast<int>(most);
 }
 
-Layout lay_out(const std::vector<Panel>& panels) {
+Layout lay_out(const std::vector<Panel>& panels, SheetShape shape) {
   const Image& first = panels.front().shown;
   Layout l{};
   l.zoom = std::max(1, (kSmallest + first.width - 1) / first.width);
@@ -45,7 +45,10 @@ Layout lay_out(const std::vector<Panel>& panels) {
   l.cell_height =
       l.picture_height + (1 + text_lines(panels)) * line_height(l.text_scale) + 2 * kMargin;
   const auto count = static_cast<int>(panels.size());
-  const int widest = std::max(1, kWidest / l.cell_width);  // columns
+  int widest = std::max(1, kWidest / l.cell_width);  // columns
+  if (shape == SheetShape::square) {
+    widest = std::min(widest, static_cast<int>(std::ceil(std::sqrt(count))));
+  }
   l.rows = (count + widest - 1) / widest;
   l.columns = (count + l.rows - 1) / l.rows;
   return l;
@@ -97,9 +100,9 @@ void draw_scale(Image& sheet, const ScaleBar& bar, int y, int scale) {
 }  // namespace
 
 Image make_sheet(const std::string& title, const std::vector<Panel>& panels,
-                 const std::optional<ScaleBar>& scale) {
+                 const std::optional<ScaleBar>& scale, SheetShape shape) {
   OCTOLUX_CHECK(!panels.empty());
-  const Layout l = lay_out(panels);
+  const Layout l = lay_out(panels, shape);
   const int top = kMargin + line_height(l.text_scale) + kMargin / 2;
   Image sheet(kMargin + l.columns * l.cell_width,
               top + l.rows * l.cell_height + (scale ? bar_space(l.text_scale) : 0));

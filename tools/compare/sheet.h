@@ -25,9 +25,13 @@ struct ScaleBar {
   std::string caption;
 };
 
-/// Panels of one size, left to right, in as many rows as a screen's width asks for.
+/// How panels of one size stand: in as few rows as a screen's width allows, or as nearly as many
+/// rows as columns, which reads better on a page of text.
+enum class SheetShape { wide, square };
+
+/// Panels of one size, left to right, row by row.
 /// Small pictures are enlarged by a whole number; text that would not fit is cut.
 Image make_sheet(const std::string& title, const std::vector<Panel>& panels,
-                 const std::optional<ScaleBar>& scale = {});
+                 const std::optional<ScaleBar>& scale = {}, SheetShape shape = SheetShape::wide);
 
 }  // namespace octolux

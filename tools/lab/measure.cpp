@@ -119,8 +119,8 @@ PhotonMap plane_map(int side) {
 
 double LabResult::rmse() const { return std::sqrt(bias() * bias() + deviation * deviation); }
 
-LabKernel parse_lab_kernel(const std::string& text) {
-  LabKernel kernel{text, {}};
+LabKernel parse_lab_kernel(const std::string& text, const EstimatorConfig& base) {
+  LabKernel kernel{text, base};
   std::size_t end = text.find(':');
   kernel.config.kernel = text.substr(0, end);
   while (end != std::string::npos) {

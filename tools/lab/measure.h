@@ -16,8 +16,9 @@ struct LabKernel {
   std::string name;  // as typed
   EstimatorConfig config;
 };
-/// Throws Error for anything that is no kernel with legal options.
-LabKernel parse_lab_kernel(const std::string& text);
+/// What the text does not say is as in `base`. Throws Error for anything that is no kernel with
+/// legal options.
+LabKernel parse_lab_kernel(const std::string& text, const EstimatorConfig& base = {});
 
 struct LabSettings {
   std::vector<LabKernel> kernels;
