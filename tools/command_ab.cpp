@@ -257,6 +257,7 @@ int AbCommand::run() {
   if (!(reach > 0)) throw Error("--reach " + reach_ + ": expected a number above 0");
   const ThreadLimit threads(parse_int("--threads " + threads_, threads_, 0, 4096));
 
+  ProgressPrinter printer(quiet_ ? Verbosity::quiet : default_verbosity());
   const std::unique_ptr<Scene> scene = scene_.load(printer);
   const FilmSize& film = scene->film;
   for (AbRender& r : renders) {
@@ -265,7 +266,6 @@ int AbCommand::run() {
   check_outputs(renders);
   check_reference(reference_options, *scene);
   announce_memory(*scene, renders.size());
-  ProgressPrinter printer(quiet_ ? Verbosity::quiet : default_verbosity());
   for (const std::string& warning : scene->warnings) printer.say("warning: " + warning);
   if (!render_all(*scene, renders) || !render_reference(*scene)) {
     printer.say("interrupted; the same command goes on from here");
