@@ -45,7 +45,7 @@ LightBounds LightBounds::united(const LightBounds& other) const {
   both.extent.bounds.add(other.extent.bounds);
   add_normals(both.extent, other.extent);
   both.extent.emission = std::max(extent.emission, other.extent.emission);
-  both.power += other.power;
+  both.weight += other.weight;
   return both;
 }
 
@@ -58,7 +58,7 @@ double LightBounds::solid_angle() const {
 
 double LightBounds::cost() const {
   const auto radius = static_cast<double>(extent.bounds.radius());
-  return power * solid_angle() * radius * radius;
+  return weight * solid_angle() * radius * radius;
 }
 
 }  // namespace octolux

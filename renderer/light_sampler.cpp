@@ -3,6 +3,7 @@
 #include "renderer/light_sampler.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -43,7 +44,7 @@ void LightSampler::divide(const std::vector<double>& power) {
   for (std::size_t i = 0; i < lights_.size(); ++i) {
     if (power[i] == 0) continue;
     if (const std::optional<LightExtent> extent = lights_[i]->extent()) {
-      bounds.push_back({*extent, power[i]});
+      bounds.push_back({*extent, std::sqrt(power[i])});
       finite_.push_back(lights_[i]);
       in_tree += power[i];
     } else {

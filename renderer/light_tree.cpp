@@ -13,8 +13,12 @@ namespace octolux {
 
 namespace {
 
-/// Least share of a child that may contribute.
-constexpr float kLeastShare = 1.0f / 1024;
+/// This much of the probability at a node goes by the children's weights alone: what seems to bring
+/// little light may yet be all there is, if the rest is hidden.
+constexpr float kBlindShare = 0.2f;
+
+/// And no child that may contribute gets less, which weights many orders apart could do.
+constexpr float kLeastShare = 0x1p-16f;
 
 /// Cosines of receiver and emitter count as no less than this, where there can be light at all: a
 /// glossy or bumpy surface need not follow the cosine.
@@ -24,9 +28,11 @@ constexpr float kLeastCosine = 0.05f;
 /// directions and cones (2^-22 at each of at most 100 levels), and so small that it costs nothing.
 constexpr float kCosineSlack = 1e-4f;
 
-/// Where one squared distance is not positive (a point on a point light), only an overflow must be
-/// avoided: intensities are below 1e4, and this is no length that any scene resolves.
+/// Distances count as no shorter than this share of the lights' extent, so that nothing is infinite
+/// on a point light; and what may contribute counts as no less than kTiny, however far away.
+constexpr float kLeastDistance = 1e-6f;
 constexpr float kTiny = 1e-30f;
+constexpr float kMaxRadius = 1e18f;  // [m], whose square is a float
 
 /// Below this depth nodes are halved without looking, so that no arrangement of lights makes the
 /// tree deep.
@@ -41,6 +47,20 @@ float sin_of_rest(float sin_a, float cos_a, float sin_b, float cos_b) {
 }
 float sine_of(float cosine) { return std::sqrt(std::max(0.0f, 1 - cosine * cosine)); }
 
+/// Mean of max(0, h) over heights h from `height` - `spread` to `height` + `spread`; negative if
+/// all are below 0 beyond doubt.
+float mean_above(float height, float spread) {
+  if (height >= spread) return height;
+  const float top = height + spread;
+  if (top <= 0) return top < -kCosineSlack ? -1 : 0;
+  return top * top / (4 * spread);
+}
+/// The same of |h|.
+float mean_size(float height, float spread) {
+  const float size = std::abs(height);
+  return size >= spread ? size : (size * size + spread * spread) / (2 * spread);
+}
+
 float coordinate(const LightBounds& light, int axis) { return light.extent.bounds.center()[axis]; }
 
 }  // namespace
@@ -51,11 +71,12 @@ class LightTree::Builder {
   Builder(LightTree& tree, std::span<const LightBounds> lights)
       : tree_(tree), lights_(lights), order_(lights.size()) {
     std::iota(order_.begin(), order_.end(), 0);
-    for (const LightBounds& light : lights) total_ += light.power;
+    for (const LightBounds& light : lights) total_ += light.weight;
     tree.leaf_.resize(lights.size());
     tree.nodes_.reserve(2 * lights.size());
     tree.nodes_.resize(1);
     fill(0, order_, 0);
+    if (tree.nodes_[0].radius > 0) tree.unit_ = tree.nodes_[0].radius;
   }
 
  private:
@@ -86,19 +107,27 @@ class LightTree::Builder {
     const std::size_t middle = split(range, depth);
     fill(node.child, range.first(middle), depth + 1);
     fill(node.child + 1, range.subspan(middle), depth + 1);
+    const double first = weight_of(range.first(middle));
+    tree_.nodes_[node.child].part = static_cast<float>(first / all.weight);
+  }
+
+  double weight_of(std::span<const int> range) const {
+    double sum = 0;
+    for (const int i : range) sum += lights_[i].weight;
+    return sum;
   }
 
   Node node_of(const LightBounds& all) const {
     const Bounds& box = all.extent.bounds;
     Node node;
     node.center = box.center();
-    const Vec3 reach = max(box.upper - node.center, node.center - box.lower);
-    node.radius = length(reach) * (1 + 0x1p-20f);
+    node.half = max(box.upper - node.center, node.center - box.lower);
+    node.radius = std::min(length(node.half) * (1 + 0x1p-20f), kMaxRadius);
     node.axis = all.extent.axis;
     node.cos_normals = std::cos(all.extent.normals);
     node.sin_normals = all.extent.normals < kPi ? std::sin(all.extent.normals) : 0;
     node.cos_emission = std::cos(all.extent.emission);
-    node.intensity = static_cast<float>(all.power / total_ / std::max(1e-4, all.solid_angle()));
+    node.intensity = static_cast<float>(all.weight / total_ / std::max(1e-4, all.solid_angle()));
     return node;
   }
 
@@ -130,7 +159,7 @@ class LightTree::Builder {
     std::array<LightBounds, kBins> bins;
     for (const int i : range) {
       LightBounds& bin = bins[bin_of(lights_[i], axis, centers)];
-      bin = bin.power > 0 ? bin.united(lights_[i]) : lights_[i];
+      bin = bin.weight > 0 ? bin.united(lights_[i]) : lights_[i];
     }
     std::array<double, kBins> cost{};  // of everything up to and including a bin
     sweep(bins, [&](int i, const LightBounds& sum) { cost[i] = sum.cost(); });
@@ -150,7 +179,7 @@ class LightTree::Builder {
   static void sweep(const std::array<LightBounds, kBins>& bins, const See& see) {
     LightBounds sum;
     for (int i = 0; i < kBins; ++i) {
-      if (bins[i].power > 0) sum = sum.power > 0 ? sum.united(bins[i]) : bins[i];
+      if (bins[i].weight > 0) sum = sum.weight > 0 ? sum.united(bins[i]) : bins[i];
       see(i, sum);
     }
   }
@@ -158,49 +187,56 @@ class LightTree::Builder {
   LightTree& tree_;
   std::span<const LightBounds> lights_;
   std::vector<int> order_;
-  double total_ = 0;  // [W]
+  double total_ = 0;  // of all weights
 };
 
 LightTree::LightTree(std::span<const LightBounds> lights) {
   if (!lights.empty()) Builder(*this, lights);
 }
 
-/// Irradiance to be expected at the receiver, were nothing in between: intensity along the axis,
-/// times the best cosines any point of the node can have, over distance squared.
-float LightTree::importance(const Node& node, const Receiver& at) {
+/// Intensity along the axis times cosines at either end over the distance cubed. Never infinite.
+float LightTree::importance(const Node& node, const Receiver& at) const {
   const Vec3 to_light = node.center - at.position;
-  const float distance2 = length2(to_light);
-  const float radius2 = node.radius * node.radius;
-  if (!(distance2 > radius2)) return std::max(node.intensity / std::max(radius2, kTiny), kTiny);
+  const float distance = std::max({length(to_light), node.radius, kLeastDistance * unit_});
+  const float inverse = 1 / distance;
+  const float height = dot(at.normal, to_light) * inverse;
+  const float spread = dot(abs(at.normal), node.half) * inverse;
+  const float cos_in = at.both_sides ? mean_size(height, spread) : mean_above(height, spread);
+  if (cos_in < 0) return 0;
+  const float cos_out = emission(node, to_light * inverse, node.radius * inverse);
+  if (cos_out < 0) return 0;
+  const float value =
+      node.intensity * std::max(cos_in, kLeastCosine) * std::max(cos_out, kLeastCosine);
+  const float nearness = unit_ * inverse;
+  return std::max(value * nearness * nearness * nearness, kTiny);
+}
 
-  const float inverse = 1 / std::sqrt(distance2);
-  const Vec3 wi = to_light * inverse;
-  const float sin_seen = node.radius * inverse;  // half the angle under which the node is seen
-  const float cos_seen = sine_of(sin_seen);
-
-  const float cos_at = at.both_sides ? std::abs(dot(at.normal, wi)) : dot(at.normal, wi);
-  const float cos_in = cos_of_rest(sine_of(cos_at), cos_at, sin_seen, cos_seen);
-  if (cos_in < -kCosineSlack) return 0;
-
-  float cos_out = 1;
-  if (node.cos_normals > -1) {
-    const float cos_axis = -dot(node.axis, wi), sin_axis = sine_of(cos_axis);
-    const float cos_beyond = cos_of_rest(sin_axis, cos_axis, node.sin_normals, node.cos_normals);
-    const float sin_beyond = sin_of_rest(sin_axis, cos_axis, node.sin_normals, node.cos_normals);
-    cos_out = cos_of_rest(sin_beyond, cos_beyond, sin_seen, cos_seen);
-    if (cos_out < node.cos_emission - kCosineSlack) return 0;
+/// Cosine at the emitter, relative to its normal nearest to the receiver; negative if it cannot
+/// shine there. `wi` is the unit vector to the center (shorter inside the bounding sphere), and
+/// `sin_seen` the sine of half the angle under which the sphere is seen (1 inside).
+float LightTree::emission(const Node& node, Vec3 wi, float sin_seen) {
+  if (node.cos_normals <= -1) return 1;
+  const float cos_axis = -dot(node.axis, wi);
+  if (node.sin_normals == 0 && node.cos_emission <= 0) {
+    const float s = sin_seen / node.radius;
+    return mean_above(cos_axis, node.radius > 0 ? dot(abs(node.axis), node.half) * s : 0);
   }
-  const float value = node.intensity * std::max(cos_in, kLeastCosine) *
-                      std::max(cos_out, kLeastCosine) / std::max(distance2, kTiny);
-  return std::max(value, kTiny);
+  if (sin_seen >= 1) return 1;
+  const float sin_axis = sine_of(cos_axis), cos_seen = sine_of(sin_seen);
+  const float cos_beyond = cos_of_rest(sin_axis, cos_axis, node.sin_normals, node.cos_normals);
+  const float sin_beyond = sin_of_rest(sin_axis, cos_axis, node.sin_normals, node.cos_normals);
+  const float cos_out = cos_of_rest(sin_beyond, cos_beyond, sin_seen, cos_seen);
+  return cos_out < node.cos_emission - kCosineSlack ? -1 : std::max(cos_out, 0.0f);
 }
 
 /// Probability of `first`, the other child of its parent being first + 1.
 float LightTree::first_share(const Receiver& at, int first) const {
   const float a = importance(nodes_[first], at);
   const float b = importance(nodes_[first + 1], at);
-  if (a == 0 || b == 0) return a == b ? 0.5f : a > 0 ? 1.0f : 0.0f;
-  return std::clamp(a / (a + b), kLeastShare, 1 - kLeastShare);
+  const float blind = nodes_[first].part;
+  if (a == 0 || b == 0) return a > 0 ? 1.0f : b > 0 ? 0.0f : blind;
+  const float share = (1 - kBlindShare) * (a / (a + b)) + kBlindShare * blind;
+  return std::clamp(share, kLeastShare, 1 - kLeastShare);
 }
 
 LightTree::Choice LightTree::sample(const Receiver& at, float u) const {
