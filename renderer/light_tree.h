@@ -8,8 +8,8 @@
 // farther away. Variance is least if each light is chosen in proportion to what it would bring,
 // times the root of the probability that it is seen. So importance falls with the cube of the
 // distance, not the square; lights count by the root of their power; and a part of the probability
-// at each node knows weights only. In five rooms of a house this leaves a half to a fifth of the
-// variance that plain irradiance does, and in one open room costs a quarter.
+// at each node knows weights only. In three rooms of a house this leaves a half to a fifth of the
+// variance that plain irradiance does, and in one open room costs a fifth.
 //
 // O(log n) for choosing and for the probability; no allocation. The walk inverts a cumulative sum
 // over the leaves, so strata of u stay together. Built deterministically. Immutable once built, so
