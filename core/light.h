@@ -34,6 +34,15 @@ struct EmittedPhoton {
   Rgb flux;  // [W] emitted radiance * cosine / pdf: mean over many = power of the light
 };
 
+/// Where a finite light is and where it shines to: every point of it lies in `bounds`, every normal
+/// within the angle `normals` of `axis`, and light leaves within the angle `emission` of a normal.
+struct LightExtent {
+  Bounds bounds;
+  Vec3 axis{0, 0, 1};
+  float normals = kPi;       // [rad], pi: everywhere
+  float emission = kPi / 2;  // [rad], at most pi / 2
+};
+
 /// Immutable once the scene is complete, so thread-safe.
 class Light {
  public:
@@ -48,6 +57,9 @@ class Light {
 
   /// Emitted power [W]. Infinite lights: power through the scene's bounding sphere.
   virtual Rgb power() const = 0;
+
+  /// Empty for a light infinitely far away, and for one that nothing is known about.
+  virtual std::optional<LightExtent> extent() const { return std::nullopt; }
 
   /// Called once when the scene is complete, before anything is emitted or power() asked.
   virtual void set_scene_bounds(Vec3 /*center*/, float /*radius*/) {}

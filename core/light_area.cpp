@@ -12,6 +12,7 @@
 #include "core/distribution.h"
 #include "core/frame.h"
 #include "core/light.h"
+#include "core/quadric.h"
 #include "core/sampling.h"
 #include "core/vec3d.h"
 
@@ -109,9 +110,37 @@ class MeshLight final : public EmittingSurface {
     return dark() ? 0 : to_pdf_w(1 / area(), x, y);
   }
 
+  std::optional<LightExtent> extent() const override {
+    LightExtent extent;
+    Vec3d sum;
+    for_each_face([&](const SurfacePoint& corner, float share) {
+      sum = sum + Vec3d(corner.ng) * static_cast<double>(share);
+      for (const std::uint32_t vertex : mesh_.triangles[corner.primitive]) {
+        extent.bounds.add(mesh_.positions[vertex]);
+      }
+    });
+    extent.axis = unit_or(sum, {0, 0, 1});
+    double widest = 0;
+    for_each_face([&](const SurfacePoint& corner, float) {
+      const Vec3d n(corner.ng), axis(extent.axis);
+      widest = std::max(widest, std::atan2(length(cross(n, axis)), dot(n, axis)));
+    });
+    extent.normals = static_cast<float>(widest);
+    return extent;
+  }
+
  private:
   double area() const { return triangles_.total(); }
   bool dark() const { return area() == 0 || is_black(radiance_.mean()); }
+
+  /// Calls see(first corner, share of the area) for every triangle that has any.
+  template <class See>
+  void for_each_face(const See& see) const {
+    for (int i = 0; i < triangles_.size(); ++i) {
+      const float share = triangles_.pmf(i);
+      if (share > 0) see(surface_point(mesh_, static_cast<std::uint32_t>(i), 0, 0), share);
+    }
+  }
 
   SurfacePoint point(Vec2 u) const {
     const Distribution1D::Sample triangle = triangles_.sample(u.x);
@@ -171,6 +200,15 @@ class QuadricLight final : public EmittingSurface {
     if (from_area == 0) return 0;
     const std::optional<Cone> cone = cone_from(x);
     return cone ? static_cast<float>(cone->pdf_w()) : from_area;
+  }
+
+  std::optional<LightExtent> extent() const override {
+    LightExtent extent{octolux::bounds(quadric_)};
+    if (quadric_.kind == Quadric::Kind::disk) {
+      extent.axis = surface_point(quadric_, {0, 0, 0}).ng;
+      extent.normals = 0;
+    }
+    return extent;
   }
 
  private:

@@ -30,6 +30,8 @@ class PointLight final : public Light {
 
   Rgb power() const override { return intensity_ * (4 * kPi); }
 
+  std::optional<LightExtent> extent() const override { return LightExtent{{position_, position_}}; }
+
  private:
   Vec3 position_;
   Rgb intensity_;  // [W sr^-1]

@@ -33,15 +33,22 @@ float bsdf_share(const Arrival& arrival, float light_pdf_w) {
 
 }  // namespace
 
+Receiver receiver(const Scattering& at) {
+  const SurfacePoint& point = at.point();
+  const bool transmits = at.bsdf().smooth_transmission() || at.bsdf().has(Lobes::near_specular);
+  return {point.position, dot(at.wo(), point.ns) < 0 ? -point.ns : point.ns, transmits};
+}
+
 Rgb sample_lights(Tracer& tracer, const LightSampler& lights, const Scattering& at,
                   const DirectStrategy& strategy) {
   if (lights.empty() || strategy.max_crossings < 0) return Rgb(0);
   Rgb total(0);
   const auto n = static_cast<std::uint32_t>(strategy.light_samples);
+  const Receiver lit = receiver(at);
   const Vec2 shift = tracer.rng.uniform2();
   for (std::uint32_t i = 0; i < n; ++i) {
     const float u_light = (static_cast<float>(i) + tracer.rng.uniform()) / static_cast<float>(n);
-    const LightSampler::Choice choice = lights.sample(std::min(kOneMinusEpsilon, u_light));
+    const LightSampler::Choice choice = lights.sample(lit, std::min(kOneMinusEpsilon, u_light));
     total += sample_one_light(tracer, choice, shifted_hammersley(i, n, shift), at, strategy);
   }
   return total / static_cast<float>(n);
@@ -51,8 +58,8 @@ Rgb emitted(const LightSampler& lights, const SurfaceHit& hit, Vec3 wo, const Ar
   if (!hit.light) return Rgb(0);
   const Rgb radiance = hit.light->radiance(hit.point, wo);
   if (is_black(radiance) || arrival.light_samples == 0) return radiance;
-  const float pdf_w =
-      lights.pmf_of_shape(hit.point.shape) * hit.light->pdf_w(arrival.from, hit.point);
+  const float pdf_w = lights.pmf_of_shape(arrival.from, hit.point.shape) *
+                      hit.light->pdf_w(arrival.from.position, hit.point);
   return radiance * bsdf_share(arrival, pdf_w);
 }
 

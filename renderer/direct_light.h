@@ -16,6 +16,10 @@ struct DirectStrategy {
   int max_crossings = 0;  // panes and masks a connection may cross; negative: no light
 };
 
+/// What the choice of a light may know about `at`: its side, unless its lobes transmit. Light from
+/// the other side of the shading normal scatters nothing (core/scattering.h).
+Receiver receiver(const Scattering& at);
+
 /// Next-event estimation at `at`: radiance towards at.wo(), the share of it that the heuristic
 /// gives this technique.
 Rgb sample_lights(Tracer& tracer, const LightSampler& lights, const Scattering& at,
@@ -23,7 +27,7 @@ Rgb sample_lights(Tracer& tracer, const LightSampler& lights, const Scattering& 
 
 /// How a path arrived where it is, as far as the heuristic must know.
 struct Arrival {
-  Vec3 from;        // the point that scattered last
+  Receiver from;    // the point that scattered last
   float pdf_w = 0;  // [sr^-1] of the scattered direction
   int bsdf_samples = 1;
   int light_samples = 0;  // 0: no next-event estimation there; this technique has all

@@ -52,7 +52,7 @@ EyeSample trace_eye_path(Tracer& tracer, const LightSampler& lights, const Final
     eta *= sample->eta;
     if (bounces >= kSafeBounces && !survives(tracer.rng, beta, eta)) break;
     ray = at.spawn(sample->wi);
-    arrival = {hit->point.position, sample->pdf_w, 1,
+    arrival = {receiver(at), sample->pdf_w, 1,
                sample->lobe == Lobes::near_specular && !scene.lights.empty() ? 1 : 0};
   }
   return out;

@@ -61,7 +61,7 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
   for (int i = 0; i < level.rays; ++i) {
     const std::optional<GatherDirection> chosen = directions.draw(i, tracer.rng);
     if (!chosen) continue;
-    const Arrival arrival{at.point().position, chosen->bsdf_pdf_w, level.rays, light_samples_};
+    const Arrival arrival{receiver(at), chosen->bsdf_pdf_w, level.rays, light_samples_};
     out.indirect += chosen->weight * follow(tracer, at.spawn(chosen->wi), next, arrival);
   }
   return out;

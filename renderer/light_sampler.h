@@ -1,7 +1,8 @@
-// Which light? For next-event estimation, where near lights matter whatever their power, half of
-// the probability is spread evenly and half by power; photons leave lights by power alone, so that
-// all carry about the same flux. A light without power is never chosen. No light at all is legal:
-// then nothing is ever chosen. Immutable, so thread-safe.
+// Which light? For next-event estimation one that matters at the point: finite lights stand in a
+// tree that knows where they are (light_tree.h). Infinite ones reach every point alike; they and
+// the tree as a whole share the probability, half of it evenly, half by power. Photons leave lights
+// by power alone, so that all carry about the same flux. A light without power is never chosen. No
+// light at all is legal: then nothing is ever chosen. Immutable, so thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +10,7 @@
 
 #include "core/distribution.h"
 #include "core/light.h"
+#include "renderer/light_tree.h"
 
 namespace octolux {
 
@@ -23,13 +25,13 @@ class LightSampler {
     const Light* light = nullptr;  // nullptr: there is nothing to choose
     float pmf = 0;
   };
-  /// A light for next-event estimation; `u` uniform in [0, 1). O(log lights).
-  Choice sample(float u) const { return choose(direct_, u); }
+  /// A light for next-event estimation at `at`; `u` uniform in [0, 1). O(log lights).
+  Choice sample(const Receiver& at, float u) const;
   /// A light for a photon to leave, exactly in proportion to power (mean of the channels).
-  Choice sample_for_emission(float u) const { return choose(emission_, u); }
+  Choice sample_for_emission(float u) const;
 
   /// Probability that `sample` chooses the area light that shape `shape` is; 0 if it is none.
-  float pmf_of_shape(std::uint32_t shape) const { return pmf_of_shape_[shape]; }
+  float pmf_of_shape(const Receiver& at, std::uint32_t shape) const;
   /// Probability that `sample` chooses the environment; 0 if there is none.
   float pmf_of_environment() const { return pmf_of_environment_; }
 
@@ -39,13 +41,16 @@ class LightSampler {
   double total_power() const { return emission_.total(); }
 
  private:
-  Choice choose(const Distribution1D& distribution, float u) const;
+  void divide(const std::vector<double>& power);
 
   std::vector<const Light*> lights_;
-  Distribution1D direct_;
   Distribution1D emission_;
-  std::vector<float> pmf_of_shape_;
+  std::vector<const Light*> finite_, infinite_;  // those with power; as in the tree, as in `kinds_`
+  LightTree tree_;
+  Distribution1D kinds_;  // every infinite light, then the tree
+  float pmf_of_tree_ = 0;
   float pmf_of_environment_ = 0;
+  std::vector<int> finite_of_shape_;  // index into finite_, or -1
 };
 
 }  // namespace octolux

@@ -40,7 +40,7 @@ EyeSample trace_path(Tracer& tracer, const LightSampler& lights, Ray ray) {
     eta *= sample->eta;
     if (bounces >= kSafeBounces && !survives(tracer.rng, beta, eta)) break;
     ray = at.spawn(sample->wi);
-    arrival = {hit->point.position, sample->pdf_w, 1,
+    arrival = {receiver(at), sample->pdf_w, 1,
                samples_lights && sample->lobe != Lobes::delta ? 1 : 0};
   }
   return out;

@@ -54,20 +54,22 @@ double share_p(const Scene& scene, const std::vector<double>& pmf,
   return chi2_test_p(counts, expected);
 }
 
+constexpr Receiver kAbove{{0.3f, 0.4f, 0.5f}, {0, 0, -1}, true};
+
+/// The sky has half of its share of power, and half of one of two kinds; the tree has the rest.
 TEST(LightSampler, ChoosesAsDocumented) {
   Scene scene;
   fill(scene);
   const LightSampler sampler(scene);
   const std::vector<double> power{0.3, 0.4, 0.1, 0, 0.2};
-  std::vector<double> direct;
-  for (const double p : power) direct.push_back(p > 0 ? 0.125 + 0.5 * p : 0);
-  EXPECT_GT(share_p(scene, direct, [&](float u) { return sampler.sample(u); }), kAlpha);
+  std::vector<double> direct{sampler.pmf_of_shape(kAbove, 0), 0, sampler.pmf_of_shape(kAbove, 2), 0,
+                             0.25 + 0.5 * 0.2};
+  direct[1] = 1 - direct[0] - direct[2] - direct[4];
+  EXPECT_GT(share_p(scene, direct, [&](float u) { return sampler.sample(kAbove, u); }), kAlpha);
   EXPECT_GT(share_p(scene, power, [&](float u) { return sampler.sample_for_emission(u); }), kAlpha);
-  EXPECT_FLOAT_EQ(sampler.pmf_of_shape(0), 0.275f);
-  EXPECT_EQ(sampler.pmf_of_shape(1), 0);
-  EXPECT_FLOAT_EQ(sampler.pmf_of_shape(2), 0.175f);
-  EXPECT_EQ(sampler.pmf_of_shape(3), 0);
-  EXPECT_FLOAT_EQ(sampler.pmf_of_environment(), 0.225f);
+  EXPECT_EQ(sampler.pmf_of_shape(kAbove, 1), 0);
+  EXPECT_EQ(sampler.pmf_of_shape(kAbove, 3), 0);
+  EXPECT_FLOAT_EQ(sampler.pmf_of_environment(), 0.35f);
   EXPECT_NEAR(sampler.total_power(), 10 * std::acos(-1.0), 1e-5);
 }
 
@@ -86,14 +88,14 @@ TEST(LightSampler, PhotonFluxOverPmfIsTheTotalPowerForGreyLights) {
 TEST(LightSampler, NoLightOrNoPower) {
   Scene dark;
   const LightSampler none(dark);
-  EXPECT_EQ(none.sample(0.5f).light, nullptr);
+  EXPECT_EQ(none.sample(kAbove, 0.5f).light, nullptr);
   EXPECT_EQ(none.sample_for_emission(0.5f).light, nullptr);
   EXPECT_EQ(none.pmf_of_environment(), 0);
   EXPECT_EQ(none.total_power(), 0);
   dark.lights.push_back(make_point_light({0, 0, 0}, Rgb(0)));
   const LightSampler black(dark);
-  EXPECT_EQ(black.sample(0.5f).light, nullptr);
-  EXPECT_EQ(black.sample(0.5f).pmf, 0);
+  EXPECT_EQ(black.sample(kAbove, 0.5f).light, nullptr);
+  EXPECT_EQ(black.sample(kAbove, 0.5f).pmf, 0);
   EXPECT_EQ(black.sample_for_emission(0).light, nullptr);
 }
 
@@ -101,7 +103,7 @@ TEST(LightSampler, EnormousPowerIsNotAnError) {
   Scene scene;
   scene.lights.push_back(make_point_light({0, 0, 0}, Rgb(3e38f)));
   const LightSampler sampler(scene);
-  EXPECT_EQ(sampler.sample(0.5f).pmf, 1);
+  EXPECT_EQ(sampler.sample(kAbove, 0.5f).pmf, 1);
   EXPECT_EQ(sampler.sample_for_emission(0.5f).light, scene.lights[0].get());
 }
 
