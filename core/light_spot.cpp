@@ -60,6 +60,12 @@ class SpotLight final : public Light {
 
   Rgb power() const override { return power_; }
 
+  std::optional<LightExtent> extent() const override {
+    const LightExtent anywhere{{position_, position_}};
+    if (config_.cutoff > kPi / 2) return anywhere;
+    return LightExtent{{position_, position_}, frame_.n, 0, config_.cutoff};
+  }
+
  private:
   /// Uniform over the cone's solid angle.
   Vec3 sample_cone(Vec2 u) const {
