@@ -26,7 +26,7 @@ struct Batches {
 inline RenderConfig regression_config(const RegressionCase& c, const std::string& kernel,
                                       bool gather) {
   if (kernel == "path") return path_config(8 * kPassesPerBatch);
-  RenderConfig config = photon_config(kPassesPerBatch, c.photons);
+  RenderConfig config = photon_config(kPassesPerBatch, gather ? c.photons : c.shown_photons);
   config.estimator.kernel = kernel;
   config.eye.gather = gather;
   return config;

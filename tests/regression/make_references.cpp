@@ -18,18 +18,18 @@ namespace {
 
 constexpr std::uint64_t kSeed = 20'061;  // no test's seed
 
-RenderConfig reference_config() {
+RenderConfig reference_config(const RegressionCase& c) {
   RenderConfig config = path_config(0, kSeed);
-  config.stop.error = kReferenceError;
+  config.stop.error = c.reference_error;
   return config;
 }
 
 void make_reference(const RegressionCase& c, const std::string& commit) {
   const auto scene = load_case(c);
-  const RenderConfig config = reference_config();
+  const RenderConfig config = reference_config(c);
   ProgressPrinter printer(default_verbosity());
   printer.say(fmt::format("{} ({}x{}, to {:g} %)", c.name, c.film.width, c.film.height,
-                          100 * kReferenceError));
+                          100 * c.reference_error));
   Watch watch([&](const Progress& progress, const Film&) { printer.update(progress); });
   const RenderResult result = render(*scene, config, watch);
   ExrFile file = make_exr(*scene, config, result.progress, result.film, false);
