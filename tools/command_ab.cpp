@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "core/file_io.h"
@@ -15,6 +14,7 @@
 #include "tools/ab/pictures.h"
 #include "tools/ab/render_store.h"
 #include "tools/ab/report.h"
+#include "tools/ab/result_folder.h"
 #include "tools/commands.h"
 #include "tools/display_arguments.h"
 #include "tools/picture_writer.h"
@@ -38,11 +38,21 @@ constexpr double kMuchMemory = 1e9;  // bytes
 /// Without --passes and --time.
 constexpr int kDefaultPasses = 32;
 
+/// Settings that --kernel, --gather and the two stop rules decide.
+const std::vector<std::string> kTaken = {"estimator.kernel", "estimator.correction", "eye.gather",
+                                         "stop.samples", "stop.error"};
+
+double positive(const std::string& option, const std::string& text) {
+  const double value = parse_number(option + " " + text, text);
+  if (!(value > 0)) throw Error(option + " " + text + ": expected a number above 0");
+  return value;
+}
+
 std::string help_footer() {
   return fmt::format(
       "Kernels are those of octolux render, with options: octobox, octobox:published (correction\n"
-      "off), octobox:eight, feeler:published, ... All renders have the same photons, look-ups and\n"
-      "passes (--passes, without --time {}: equal photons), or the same time (--time).\n\n"
+      "off), octobox:eight, feeler:published, ... All renders have equal photons (--passes; {} if\n"
+      "nothing is said) or equal time (--time), and everything else the same.\n\n"
       "Writes into the folder: for each kernel and gathering an EXR and a PNG, ab.png (the "
       "pictures\n"
       "side by side), leaks.png (heat maps of too bright and too dark), index.html (a page to "
@@ -59,7 +69,7 @@ std::string help_footer() {
       "Settings of --set, with their defaults:\n{}\n"
       "Exit codes: 0 done, 1 samples that are not finite or a fault of the program, 2 bad input,\n"
       "130 interrupted (nothing is lost).",
-      kDefaultPasses, list_settings(RenderConfig{}));
+      kDefaultPasses, list_settings(RenderConfig{}, kTaken));
 }
 
 class AbCommand final : public Command {
@@ -80,13 +90,12 @@ class AbCommand final : public Command {
   bool render_one(const Scene& scene, const AbRender& render, const std::string& count);
   bool render_all(const Scene& scene, const std::vector<AbRender>& renders);
   bool render_reference(const Scene& scene);
-  void write_results() const;
 
   CLI::App* verb_;
   SceneArguments scene_;
   SettingArguments settings_;
   std::vector<std::string> kernels_{"cone", "octobox", "feeler"}, gatherings_{"off"};
-  std::string folder_, reach_ = "2", threads_ = "0";
+  std::string folder_, reach_ = "2", range_, threads_ = "0";
   std::string reference_error_ = "0.005", reference_time_ = "600";
   ReferenceOptions reference_;
   DisplayArguments display_;
@@ -109,9 +118,10 @@ AbCommand::AbCommand(CLI::App& app, std::string command_line)
   verb_->add_option("--reach", reach_, "How near a wall or an edge is near, in bandwidths")
       ->type_name("B")
       ->capture_default_str();
+  verb_->add_option("--range", range_, "Largest leak a heat map tells apart, in units of mean y")
+      ->type_name("R");
   add_reference_options();
-  settings_.add_to(*verb_, {"estimator.kernel", "estimator.correction", "eye.gather",
-                            "stop.samples", "stop.error"});
+  settings_.add_to(*verb_, kTaken);
   scene_.add_size_to(*verb_);
   display_.add_to(*verb_, "pictures");
   verb_->add_option("--threads", threads_, "Threads; 0: all processors. Never changes the picture")
@@ -148,10 +158,8 @@ std::vector<AbRender> AbCommand::plan() const {
 
 ReferenceOptions AbCommand::reference() const {
   ReferenceOptions options = reference_;
-  options.error = parse_number("--reference-error " + reference_error_, reference_error_);
-  options.seconds = parse_number("--reference-time " + reference_time_, reference_time_);
-  if (!(options.error > 0)) throw Error("--reference-error: expected a number above 0");
-  if (!(options.seconds > 0)) throw Error("--reference-time: expected a number above 0");
+  options.error = positive("--reference-error", reference_error_);
+  options.seconds = positive("--reference-time", reference_time_);
   return options;
 }
 
@@ -169,9 +177,7 @@ void AbCommand::check_outputs(const std::vector<AbRender>& renders) const {
   std::error_code code;
   fs::create_directories(file("renders"), code);
   if (code) throw Error(folder() + ": cannot be made: " + code.message());
-  for (const char* name : {"ab.png", "leaks.png", "index.html", "ab.json", "table.md"}) {
-    check_writable(file(name));
-  }
+  for (const std::string& name : result_files()) check_writable(file(name));
   check_writable(file("renders/new.render"));
   for (const AbRender& render : renders) writer(render);
 }
@@ -231,30 +237,12 @@ bool AbCommand::render_reference(const Scene& scene) {
   return true;
 }
 
-void AbCommand::write_results() const {
-  const DisplayOptions display = display_.options();
-  const std::string json = to_json(result_).dump(2) + "\n", table = to_markdown(result_);
-  const double range = leak_range(result_);
-  write_png(file("ab.png"), ab_sheet(result_, display));
-  write_png(file("leaks.png"), leak_sheet(result_, range));
-  for (const NamedMask& m : result_.masks) {
-    if (m.mask.empty()) continue;
-    Image image(result_.width(), result_.height());
-    for (std::size_t i = 0; i < m.mask.size(); ++i) image.pixels[i] = Rgb(m.mask[i]);
-    write_png(file("mask-" + m.key + ".png"), image);
-  }
-  write_file(file("ab.json"), json);
-  write_file(file("table.md"), table);
-  write_file(file("index.html"), make_page(ab_page(result_, display, range, json)));
-  fmt::print("{}", table);
-}
-
 int AbCommand::run() {
   std::vector<AbRender> renders = plan();
   const ReferenceOptions reference_options = reference();
   scene_.check();
-  const double reach = parse_number("--reach " + reach_, reach_);
-  if (!(reach > 0)) throw Error("--reach " + reach_ + ": expected a number above 0");
+  const double reach = positive("--reach", reach_);
+  if (!range_.empty()) positive("--range", range_);
   const ThreadLimit threads(parse_int("--threads " + threads_, threads_, 0, 4096));
 
   ProgressPrinter printer(quiet_ ? Verbosity::quiet : default_verbosity());
@@ -275,7 +263,9 @@ int AbCommand::run() {
   result_.scene_hash = scene->hash;
   result_.seen = see_surfaces(*scene, renders.front().config, reach);
   measure(result_);
-  write_results();
+  const double range = range_.empty() ? leak_range(result_) : positive("--range", range_);
+  write_results(result_, folder(), display_.options(), range);
+  fmt::print("{}", to_markdown(result_));
   printer.say("wrote " + file("index.html") + ", ab.png, leaks.png, ab.json and more beside it");
   return finite_ ? 0 : kNotFinite;
 }

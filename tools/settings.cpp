@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <type_traits>
-#include <vector>
 
 #include "core/error.h"
 
@@ -108,9 +108,10 @@ std::string get_setting(const RenderConfig& config, const std::string& key) {
   return text;
 }
 
-std::string list_settings(const RenderConfig& config) {
+std::string list_settings(const RenderConfig& config, const std::vector<std::string>& left_out) {
   std::string text;
   visit(config, [&](const std::string& name, const auto& value) {
+    if (std::find(left_out.begin(), left_out.end(), name) != left_out.end()) return;
     text += fmt::format("  {}={}\n", name, to_text(value));
   });
   return text;

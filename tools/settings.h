@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "renderer/config.h"
 
@@ -28,8 +29,9 @@ void set_setting(RenderConfig& config, const std::string& source, const std::str
 /// The setting's value as text.
 std::string get_setting(const RenderConfig& config, const std::string& key);
 
-/// All settings with their values, one per line.
-std::string list_settings(const RenderConfig& config);
+/// All settings but those `left_out`, with their values, one per line.
+std::string list_settings(const RenderConfig& config,
+                          const std::vector<std::string>& left_out = {});
 
 /// Throws Error naming `source` unless `text` is a whole number in [lowest, highest].
 int parse_int(const std::string& source, const std::string& text, int lowest, int highest);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tools/ab/report.h"
@@ -96,9 +97,14 @@ void add_columns(PageTable& table, const AbResult& r) {
 }  // namespace
 
 double leak_range(const AbResult& r) {
-  std::vector<ScalarField> fields;
-  for (const AbPicture& p : r.pictures) fields.push_back(leaks_of(r, p));
-  return heat_map_range(fields);
+  std::vector<double> ranges;
+  for (const AbPicture& p : r.pictures) {
+    const ScalarField field = leaks_of(r, p);
+    ranges.push_back(heat_map_range({&field, 1}));
+  }
+  const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
+  std::nth_element(ranges.begin(), middle, ranges.end());
+  return *middle;
 }
 
 Image ab_sheet(const AbResult& r, const DisplayOptions& display) {

@@ -10,7 +10,8 @@
 
 namespace octolux {
 
-/// The range all leak heat maps share, in units of the reference's mean.
+/// The range all leak heat maps share, in units of the reference's mean: what suits the middle one
+/// of the pictures, so that a very bad one does not hide the others' faults.
 double leak_range(const AbResult& result);
 
 /// The reference and every picture with its main figures. Throws Error as to_display.
