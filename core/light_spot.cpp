@@ -61,9 +61,9 @@ class SpotLight final : public Light {
   Rgb power() const override { return power_; }
 
   std::optional<LightExtent> extent() const override {
-    const LightExtent anywhere{{position_, position_}};
-    if (config_.cutoff > kPi / 2) return anywhere;
-    return LightExtent{{position_, position_}, frame_.n, 0, config_.cutoff};
+    const float fade = config_.cutoff - config_.beam;
+    if (!(fade <= kPi / 2)) return LightExtent{{position_, position_}};
+    return LightExtent{{position_, position_}, frame_.n, config_.beam, fade};
   }
 
  private:
