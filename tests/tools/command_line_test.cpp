@@ -68,6 +68,7 @@ TEST_F(CommandLine, HelpAndVersionGoToStdout) {
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
                                                     {"--version"},
                                                     {"render", "--help"},
+                                                    {"ab", "--help"},
                                                     {"info", "--help"}}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, 0);
