@@ -4,8 +4,8 @@
 // In terms of the world normal ng, which is A^-T n made unit, |A^-T n| = 1 / |A^T ng|.
 //
 // A sphere that emits outwards is seen from outside under a cone, and sampled uniformly in its
-// solid angle (Shirley & Wang 1992): no noise from distance or foreshortening. All of it in double
-// and in forms that do not cancel, from touching distance to a million radii away.
+// solid angle (Shirley & Wang 1992): no noise from distance or foreshortening. All in double, in
+// forms that do not cancel, from touching distance to a million radii away.
 #include <cmath>
 #include <numbers>
 
@@ -51,8 +51,8 @@ class EmittingSurface : public AreaLight {
   }
 
   EmittedPhoton emit_from(const SurfacePoint& y, double pdf_a, Vec2 u_direction) const {
-    const Vec3 local = sample_cosine_hemisphere(u_direction);
-    const Vec3 direction = normalize(Frame::from_normal(y.ng).to_world(local));
+    const Frame frame = Frame::from_normal(y.ng);
+    const Vec3 direction = normalize(frame.to_world(sample_cosine_hemisphere(u_direction)));
     return {{offset_origin(y.position, y.ng, y.error, direction), direction},
             radiance_(y.uv) * static_cast<float>(pi / pdf_a)};
   }
@@ -80,7 +80,6 @@ class MeshLight final : public EmittingSurface {
  public:
   MeshLight(const TriangleMesh& mesh, Color radiance) : EmittingSurface(radiance), mesh_(mesh) {
     std::vector<double> areas;
-    areas.reserve(mesh.triangles.size());
     for (const auto& [a, b, c] : mesh.triangles) {
       const Vec3d p(mesh.positions[a]);
       const Vec3d normal = cross(Vec3d(mesh.positions[b]) - p, Vec3d(mesh.positions[c]) - p);
@@ -95,8 +94,7 @@ class MeshLight final : public EmittingSurface {
   }
 
   std::optional<LightSample> sample(Vec3 x, Vec2 u) const override {
-    if (dark()) return std::nullopt;
-    return towards(point(u), x, 1 / area());
+    return dark() ? std::nullopt : towards(point(u), x, 1 / area());
   }
 
   EmittedPhoton emit(Vec2 u_position, Vec2 u_direction) const override {
@@ -120,12 +118,12 @@ class MeshLight final : public EmittingSurface {
       }
     });
     extent.axis = unit_or(sum, {0, 0, 1});
-    double widest = 0;
+    extent.normals = 0;
     for_each_face([&](const SurfacePoint& corner, float) {
       const Vec3d n(corner.ng), axis(extent.axis);
-      widest = std::max(widest, std::atan2(length(cross(n, axis)), dot(n, axis)));
+      const auto angle = static_cast<float>(std::atan2(length(cross(n, axis)), dot(n, axis)));
+      extent.normals = std::max(extent.normals, angle);
     });
-    extent.normals = static_cast<float>(widest);
     return extent;
   }
 
@@ -203,12 +201,9 @@ class QuadricLight final : public EmittingSurface {
   }
 
   std::optional<LightExtent> extent() const override {
-    LightExtent extent{octolux::bounds(quadric_)};
-    if (quadric_.kind == Quadric::Kind::disk) {
-      extent.axis = surface_point(quadric_, {0, 0, 0}).ng;
-      extent.normals = 0;
-    }
-    return extent;
+    const Bounds box = octolux::bounds(quadric_);
+    const bool flat = quadric_.kind == Quadric::Kind::disk;
+    return flat ? LightExtent{box, surface_point(quadric_, {}).ng, 0} : LightExtent{box};
   }
 
  private:

@@ -14,13 +14,12 @@
 #include "tools/commands.h"
 #include "tools/compare/comparison_page.h"
 #include "tools/compare/report.h"
-#include "tools/converge/external.h"
 #include "tools/converge/run.h"
 #include "tools/converge/study.h"
+#include "tools/converge_arguments.h"
 #include "tools/display_arguments.h"
 #include "tools/interrupt.h"
 #include "tools/progress.h"
-#include "tools/reference/reference.h"
 #include "tools/scene_arguments.h"
 #include "tools/setting_arguments.h"
 #include "tools/settings.h"
@@ -64,20 +63,10 @@ class ConvergeCommand final : public Command {
   int run() override;
 
  private:
-  /// What is to be done, checked.
-  struct Job {
-    std::vector<Variant> variants;
-    std::vector<External> externals;
-    RunLimit limit;
-    int seeds = 0;
-    ReferenceOptions reference;
-  };
+  using Job = ConvergeJob;
   /// Runs of one variant, by seed.
   using Runs = std::vector<Run>;
 
-  void add_choices();
-  void add_reference();
-  Job job() const;
   std::string out(const std::string& name) const { return (fs::path(output_) / name).string(); }
   void prepare_folder() const;
   void announce(const Job& job, ProgressPrinter& printer) const;
@@ -91,11 +80,8 @@ class ConvergeCommand final : public Command {
   std::string command_line_;
   SceneArguments scene_;
   SettingArguments settings_;
-  VariantChoices choices_;
-  std::vector<std::string> photons_, added_;
-  std::string output_ = "converge", seeds_ = "4", time_ = "10", passes_, clock_ = "wall";
-  std::string reference_error_ = "0.005", reference_time_ = "600", threads_ = "0";
-  ReferenceOptions reference_;
+  ConvergeArguments race_;
+  std::string output_ = "converge", threads_ = "0";
   DisplayArguments display_;
   bool quiet_ = false;
 };
@@ -107,8 +93,7 @@ ConvergeCommand::ConvergeCommand(CLI::App& app, std::string command_line)
   verb_->add_option("-o,--output", output_, "Folder for everything that is written")
       ->type_name("FOLDER")
       ->capture_default_str();
-  add_choices();
-  add_reference();
+  race_.add_to(*verb_);
   scene_.add_size_to(*verb_);
   settings_.add_to(*verb_, {"seed", "estimator.kernel", "estimator.octants", "estimator.correction",
                             "photons.global", "eye.gather", "stop.passes", "stop.samples",
@@ -119,81 +104,6 @@ ConvergeCommand::ConvergeCommand(CLI::App& app, std::string command_line)
       ->capture_default_str();
   verb_->add_flag("--quiet", quiet_, "Say nothing but results and errors");
   verb_->footer(kFooter);
-}
-
-void ConvergeCommand::add_choices() {
-  verb_->add_option("--integrator", choices_.integrators, "Integrators (photon path)")
-      ->type_name("NAME");
-  verb_
-      ->add_option("--kernel", choices_.kernels,
-                   "Kernels (cone octobox feeler); as published: cone:published")
-      ->type_name("NAME");
-  verb_->add_option("--photons", photons_, "Photon paths per pass; several are raced")
-      ->type_name("N");
-  verb_->add_option("--gather", choices_.gathers, "Final gathering: on, off, or both")
-      ->type_name("on|off");
-  verb_->add_option("--seeds", seeds_, "Independent renders of each; their spread gives the bars")
-      ->type_name("N")
-      ->capture_default_str();
-  verb_->add_option("--time", time_, "Go on doubling while a render ends within this time")
-      ->type_name("SECONDS")
-      ->capture_default_str();
-  verb_->add_option("--passes", passes_, "At most N passes each")->type_name("N");
-  verb_
-      ->add_option("--clock", clock_,
-                   "wall: real time; cpu: of all threads together, for busy machines")
-      ->type_name("wall|cpu")
-      ->capture_default_str();
-  verb_->add_option("--add", added_, "Another renderer's pictures, with the time each took")
-      ->type_name("NAME=TIME:FILE.exr,...")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-}
-
-void ConvergeCommand::add_reference() {
-  verb_
-      ->add_option("--reference", reference_.file,
-                   "The truth; larger by a whole number is averaged down (default: path traced)")
-      ->type_name("FILE.exr");
-  verb_->add_option("--references", reference_.folder, "Where path traced references are kept")
-      ->type_name("FOLDER")
-      ->capture_default_str();
-  verb_
-      ->add_option("--reference-error", reference_error_,
-                   "Path trace it to this mean relative standard error")
-      ->type_name("E")
-      ->capture_default_str();
-  verb_->add_option("--reference-time", reference_time_, "... or for so long")
-      ->type_name("SECONDS")
-      ->capture_default_str();
-}
-
-double parse_positive(const std::string& option, const std::string& text) {
-  const std::string source = option + " " + text;
-  const double value = parse_number(source, text);
-  if (!(value > 0)) throw Error(source + ": expected a number above 0");
-  return value;
-}
-
-ConvergeCommand::Job ConvergeCommand::job() const {
-  Job job;
-  VariantChoices choices = choices_;
-  for (const std::string& text : photons_) {
-    choices.photons.push_back(parse_int("--photons " + text, text, 1, 2'000'000'000));
-  }
-  job.variants = make_variants(choices, settings_.apply({}));
-  for (const std::string& text : added_) job.externals.push_back(parse_external(text));
-  job.seeds = parse_int("--seeds " + seeds_, seeds_, 1, 1000);
-  job.limit.seconds = parse_positive("--time", time_);
-  if (!passes_.empty()) job.limit.passes = parse_int("--passes " + passes_, passes_, 1, 1 << 24);
-  if (clock_ != "wall" && clock_ != "cpu") {
-    throw Error(unknown_name("clock", clock_, {"wall", "cpu"}));
-  }
-  job.limit.clock = clock_ == "wall" ? Clock::wall : Clock::cpu;
-  job.reference = reference_;
-  job.reference.error = parse_positive("--reference-error", reference_error_);
-  job.reference.seconds = parse_positive("--reference-time", reference_time_);
-  return job;
 }
 
 void ConvergeCommand::prepare_folder() const {
@@ -308,7 +218,7 @@ void ConvergeCommand::write(const Study& study, const NamedPicture& reference) c
 }
 
 int ConvergeCommand::run() {
-  const Job job = this->job();
+  const Job job = race_.job(settings_.apply({}));
   scene_.check();
   check_display(display_.options());
   const ThreadLimit threads(parse_int("--threads " + threads_, threads_, 0, 4096));

@@ -19,7 +19,7 @@ struct SceneArguments {
   std::string path;
   std::vector<std::string> defines;  // name=value
   bool skip_missing = false;
-  std::string size;                  // WIDTHxHEIGHT; "": the scene's own
+  std::string size;  // WIDTHxHEIGHT; "": the scene's own
 
   /// The arguments write into this object, so it must stay where it is.
   void add_to(CLI::App& verb);
