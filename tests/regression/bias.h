@@ -20,7 +20,7 @@ struct StatedBias {
 /// Within a bandwidth of a wall, corner or edge.
 inline StatedBias stated_bias_near_edges(const std::string& kernel) {
   static const std::map<std::string, StatedBias> stated = {
-      {"disc", {-0.755, 0.004}}, {"cone", {-0.755, 0.004}},   {"octobox", {-0.059, 0.031}},
+      {"disc", {-0.998, 0.008}}, {"cone", {-0.994, 0.009}},   {"octobox", {-0.059, 0.031}},
       {"hull", {-0.168, 0.014}}, {"feeler", {-0.004, 0.004}}, {"region", {-0.004, 0.004}},
   };
   const auto found = stated.find(kernel);

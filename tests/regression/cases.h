@@ -27,7 +27,8 @@ struct RegressionCase {
 };
 
 /// Thin walls leak, and stairs are many strips side by side, for all kernels that do not look at
-/// the geometry: nothing is stated for them there. `feeler` does not see free edges. The glass
+/// the geometry: nothing is stated for them there. `feeler` does not see free edges, and behind
+/// shafts narrower than the gap of two rays `region` leaks too, as scenes/feelers says. The glass
 /// sphere's lamp is large, because a path tracer hardly finds the caustic of a small one; its map
 /// is not shown, since the caustic's shape is narrower than a look-up.
 inline const std::vector<RegressionCase>& regression_cases() {
@@ -73,7 +74,7 @@ inline const std::vector<RegressionCase>& regression_cases() {
        20'000,
        {"octobox", "region"},
        {"octobox"}},
-      {"feelers", "feelers/feelers.xml", {}, {48, 36}, 80'000, 20'000, {"region"}, {"region"}},
+      {"feelers", "feelers/feelers.xml", {}, {48, 36}, 80'000, 0, {}, {}},
       {"house", "house/house.xml", {}, {48, 28}, 80'000, 0, {}, {"region"}, 0.02},
   };
   return cases;

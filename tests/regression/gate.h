@@ -60,8 +60,7 @@ inline double region_mean(const Image& image, const Region& region, int channel)
 struct GateResult {
   int tests = 0, failed = 0;
   double worst_p = 1;
-  std::string worst;      // in words
-  double mean_ratio = 0;  // of the whole picture to the middle of what is allowed
+  std::string worst;  // in words
 
   bool passed() const { return tests > 0 && failed == 0; }
 };
@@ -82,7 +81,6 @@ inline void test_region(const Batches& batches, const Allowed& allowed, const Re
   if (beyond > 0) p = variance > 0 ? student_t_p(beyond / std::sqrt(variance), dof) / 2 : 0;
   result.tests += 2;
   result.failed += p < limit;
-  if (region.x < 0 && channel == 1) result.mean_ratio = mean.mean() / ((low + high) / 2);
   if (!(p < result.worst_p)) return;
   result.worst_p = p;
   char text[200];

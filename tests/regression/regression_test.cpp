@@ -21,6 +21,9 @@ struct Trial {
   }
 };
 
+/// For messages of the test framework, which finds it by this name.
+void PrintTo(const Trial& trial, std::ostream* out) { *out << trial.name(); }
+
 std::vector<Trial> trials() {
   std::vector<Trial> all;
   for (const RegressionCase& c : regression_cases()) {
@@ -40,9 +43,8 @@ TEST_P(RegressionSlow, IsWithinNoiseAndStatedBias) {
   const RenderConfig config = regression_config(c, GetParam().kernel, GetParam().gather);
   const Batches batches = render_batches(*scene, config);
   const GateResult result = check_gate(batches, allowed_for(*scene, config, reference, batches));
-  std::printf("  %s: %d tests, smallest p %.2g, mean %.4f of what is expected (%s)\n",
-              GetParam().name().c_str(), result.tests, result.worst_p, result.mean_ratio,
-              result.worst.c_str());
+  std::printf("  %s: %d tests, smallest p %.2g (%s)\n", GetParam().name().c_str(), result.tests,
+              result.worst_p, result.worst.c_str());
   EXPECT_TRUE(result.passed()) << result.failed << " of " << result.tests
                                << " failed; worst: " << result.worst << "\nsee "
                                << leave_evidence(GetParam().name(), reference, batches)
