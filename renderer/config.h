@@ -17,6 +17,7 @@ struct PhotonConfig {
   double global_radius = 10;  // look-up limit, in units of the mean n-photon radius
   double caustic_radius = 2;  // the same for the caustic map
   double alpha = 2.0 / 3;     // Knaus & Zwicker's: how fast the bandwidth shrinks; 1: never
+  bool learn = true;          // aim photons at what the eye looks at, where that pays
 };
 
 struct EyeConfig {
@@ -55,6 +56,7 @@ void visit(Config& config, Field&& field) {
   field("photons.global_radius", config.photons.global_radius);
   field("photons.caustic_radius", config.photons.caustic_radius);
   field("photons.alpha", config.photons.alpha);
+  field("photons.learn", config.photons.learn);
   field("estimator.kernel", config.estimator.kernel);
   field("estimator.neighbours", config.estimator.neighbours);
   field("estimator.cone_slope", config.estimator.cone_slope);

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "renderer/load_progress.h"
 
@@ -12,6 +13,8 @@ struct LoadOptions {
   std::map<std::string, std::string> defines = {};  // -D name=value: wins over <default>
   /// Leave out shapes whose file is not there, with a warning, instead of refusing the scene.
   bool skip_missing = false;
+  /// Ids of shapes that are portals, besides those that call themselves so.
+  std::vector<std::string> portals = {};
   LoadProgress progress = {};
 };
 

@@ -24,18 +24,6 @@ Stream stream_of(PhotonKind kind) {
   return kind == PhotonKind::caustic ? Stream::caustic_photon : Stream::record;
 }
 
-/// Starts path `index`; the light is chosen by power, stratified over the pass, so that all photons
-/// carry about the same flux and every lamp gets its share.
-Flight emit(const LightSampler& lights, Rng& rng, std::int64_t index, std::int64_t count) {
-  const double u = (static_cast<double>(index) + rng.uniform()) / static_cast<double>(count);
-  const LightSampler::Choice choice =
-      lights.sample_for_emission(std::min(kOneMinusEpsilon, static_cast<float>(u)));
-  const Vec2 u_position = rng.uniform2();
-  const Vec2 u_direction = rng.uniform2();
-  const EmittedPhoton emitted = choice.light->emit(u_position, u_direction);
-  return {emitted.ray, emitted.flux * (1 / (choice.pmf * static_cast<float>(count))), 0};
-}
-
 /// Scatters the photon at `at` by one of `lobes`, or ends it: Russian roulette by the ratio of new
 /// to old flux, so that survivors keep their flux and the lights' watts do not matter.
 bool scatter(Flight& flight, const Scattering& at, Lobes lobes, Rng& rng) {
@@ -52,10 +40,24 @@ bool scatter(Flight& flight, const Scattering& at, Lobes lobes, Rng& rng) {
   return true;
 }
 
-void trace_photon(Tracer& tracer, Flight flight, PhotonKind kind, int max_segments,
+}  // namespace
+
+/// The light is chosen by power, so that all photons carry about the same flux.
+EmittedPhoton emit_photon(const LightSampler& lights, const EmissionPoint& at, float count) {
+  const LightSampler::Choice choice = lights.sample_for_emission(at[0]);
+  EmittedPhoton photon = choice.light->emit({at[1], at[2]}, {at[3], at[4]});
+  photon.flux *= 1 / (choice.pmf * count);
+  return photon;
+}
+
+void trace_photon(Tracer& tracer, const EmittedPhoton& start, PhotonKind kind,
                   std::vector<Photon>& photons) {
+  // A photon is seen over at least one more segment.
+  const int max_depth = tracer.scene().max_depth;
+  const int max_segments = max_depth < 0 ? 1 << 20 : max_depth - 1;
   const bool caustic = kind == PhotonKind::caustic;
   const Lobes followed = caustic ? Lobes::specular : Lobes::all;
+  Flight flight{start.ray, start.flux, 0};
   for (int bounces = 0; flight.segments < max_segments; ++bounces) {
     const std::optional<SurfaceHit> hit = tracer.next(flight.ray, flight.flux, flight.segments);
     if (!hit || flight.segments > max_segments) return;
@@ -68,25 +70,26 @@ void trace_photon(Tracer& tracer, Flight flight, PhotonKind kind, int max_segmen
   }
 }
 
-}  // namespace
-
-PhotonPass trace_photons(const Scene& scene, const LightSampler& lights, PhotonKind kind,
+PhotonPass trace_photons(const Scene& scene, const PhotonSource& source, PhotonKind kind,
                          std::int64_t count, PassKey key) {
   PhotonPass result;
-  if (count == 0 || lights.empty()) return result;
+  if (count == 0 || source.lights.empty()) return result;
   if (kind == PhotonKind::caustic && !scene.any_specular) return result;
 
   const Stream stream = stream_of(kind);
-  // A photon is seen over at least one more segment.
-  const int max_segments = scene.max_depth < 0 ? 1 << 20 : scene.max_depth - 1;
   const auto chunks = static_cast<std::size_t>((count + kChunk - 1) / kChunk);
   std::vector<PhotonPass> parts(chunks);
   parallel_for_chunks(count, kChunk, [&](std::int64_t chunk, std::int64_t begin, std::int64_t end) {
     PhotonPass& part = parts[static_cast<std::size_t>(chunk)];
     for (std::int64_t index = begin; index < end; ++index) {
       Tracer tracer(scene, Rng(key.seed, stream, key.pass, static_cast<std::uint64_t>(index)));
-      const Flight flight = emit(lights, tracer.rng, index, count);
-      trace_photon(tracer, flight, kind, max_segments, part.photons);
+      // Stratified over the pass, so that every lamp gets its share.
+      const double u =
+          (static_cast<double>(index) + tracer.rng.uniform()) / static_cast<double>(count);
+      const EmissionDensity::Sample sample = source.density.sample(u, tracer.rng);
+      const float photons_like_it = static_cast<float>(count) / sample.weight;
+      trace_photon(tracer, emit_photon(source.lights, sample.at, photons_like_it), kind,
+                   part.photons);
       part.rays += tracer.rays();
     }
   });
@@ -99,6 +102,11 @@ PhotonPass trace_photons(const Scene& scene, const LightSampler& lights, PhotonK
     result.rays += part.rays;
   }
   return result;
+}
+
+PhotonPass trace_photons(const Scene& scene, const LightSampler& lights, PhotonKind kind,
+                         std::int64_t count, PassKey key) {
+  return trace_photons(scene, {lights, EmissionDensity()}, kind, count, key);
 }
 
 Bandwidth look_up_bandwidth(const Scene& scene, std::size_t photons, int neighbours, double radius,

@@ -9,8 +9,9 @@
 
 #include "estimators/radiance_map.h"
 #include "renderer/config.h"
+#include "renderer/emission_density.h"
 #include "renderer/light_sampler.h"
-#include "renderer/scene.h"
+#include "renderer/tracer.h"
 
 namespace octolux {
 
@@ -29,9 +30,24 @@ struct PassKey {
   std::uint64_t pass = 0;
 };
 
+/// Where photons come from: the lights, and how likely each of their photons is.
+struct PhotonSource {
+  const LightSampler& lights;
+  const EmissionDensity& density;
+};
+
 /// Emits `count` paths [flux already divided by it].
+PhotonPass trace_photons(const Scene& scene, const PhotonSource& source, PhotonKind kind,
+                         std::int64_t count, PassKey key);
+/// The same by power alone.
 PhotonPass trace_photons(const Scene& scene, const LightSampler& lights, PhotonKind kind,
                          std::int64_t count, PassKey key);
+
+/// The photon that starts at `at`, as one of `count` emitted by power.
+EmittedPhoton emit_photon(const LightSampler& lights, const EmissionPoint& at, float count);
+/// Follows it, and appends what is stored on its way.
+void trace_photon(Tracer& tracer, const EmittedPhoton& start, PhotonKind kind,
+                  std::vector<Photon>& photons);
 
 /// Bandwidth of the look-ups in a map of `photons` photons: a limit of `radius` times the mean
 /// radius of `neighbours` photons on the scene's surfaces, and the pass's shrink factor s with

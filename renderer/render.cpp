@@ -6,6 +6,7 @@
 
 #include "core/check.h"
 #include "renderer/eye_pass.h"
+#include "renderer/learn_emission.h"
 #include "renderer/path_pass.h"
 
 namespace octolux {
@@ -32,10 +33,17 @@ class Stopwatch {
 
 /// What all passes of a render share.
 struct Job {
+  Job(const Scene& scene_, const RenderConfig& config_)
+      : scene(scene_),
+        config(config_),
+        lights(scene),
+        estimator(make_estimator(config.estimator)) {}
+
   const Scene& scene;
   const RenderConfig& config;
   const LightSampler lights;
   const std::unique_ptr<Estimator> estimator;
+  PhotonAim aim;
 
   PassKey key(int pass) const { return {config.seed, static_cast<std::uint64_t>(pass)}; }
 };
@@ -45,8 +53,9 @@ RadianceMap make_map(const Job& job, PhotonKind kind, PassKey key, Progress& pro
   const PhotonConfig& photons = job.config.photons;
   const bool global = kind == PhotonKind::global;
   Stopwatch watch;
+  const PhotonSource source{job.lights, global ? job.aim.global : job.aim.caustic};
   PhotonPass traced =
-      trace_photons(job.scene, job.lights, kind, global ? photons.global : photons.caustic, key);
+      trace_photons(job.scene, source, kind, global ? photons.global : photons.caustic, key);
   progress.rays += traced.rays;
   progress.timing.photons += watch.lap();
 
@@ -171,8 +180,11 @@ RenderResult render(const Scene& scene, const RenderConfig& wanted, RenderObserv
   RenderConfig config =
       resolved(wanted, static_cast<std::int64_t>(film.crop_width) * film.crop_height);
   if (!has_rule(config.stop)) config.stop = default_stop(config.integrator);
-  const Job job{scene, config, LightSampler(scene), make_estimator(config.estimator)};
+  Job job(scene, config);
   Stopwatch watch;
+  if (config.integrator == Integrator::photon) {
+    job.aim = learn_emission(scene, job.lights, config);
+  }
   RenderResult result =
       start ? std::move(*start) : RenderResult{Film(film.crop_width, film.crop_height), {}, false};
   OCTOLUX_CHECK(result.film.width() == film.crop_width && result.film.height() == film.crop_height);

@@ -25,6 +25,19 @@ void Scene::add_placed_shapes() {
   }
 }
 
+/// Infinite lights send their photons through the portals.
+void Scene::aim_lights() {
+  if (portals.empty()) return;
+  aims_ = std::make_unique<Portals>(portals);
+  bool any = false;
+  for (std::unique_ptr<Light>& light : lights) {
+    if (!is_infinite(*light)) continue;
+    light = aim_at_portals(std::move(light), *aims_);
+    any = true;
+  }
+  if (!any) warnings.push_back("the portals do nothing: no sun, sky or environment is there");
+}
+
 void Scene::complete(const LoadProgress& progress) {
   if (shapes.empty()) throw Error("the scene has no shapes");
   RayCaster::BuildProgress build_progress;
@@ -42,6 +55,7 @@ void Scene::complete(const LoadProgress& progress) {
     any_pass_through |= scattering->passes_light();
     any_specular |= scattering->has(Lobes::specular);
   }
+  aim_lights();
   Bounds everything = bounds;
   everything.add(camera_config.to_world.point({0, 0, 0}));
   for (const std::unique_ptr<Light>& light : lights) {

@@ -11,6 +11,7 @@
 #include "core/camera.h"
 #include "core/filter.h"
 #include "core/light.h"
+#include "core/light_portal.h"
 #include "core/shape.h"
 #include "core/texture.h"
 #include "renderer/load_progress.h"
@@ -24,6 +25,7 @@ struct Scene {
   std::vector<std::unique_ptr<Texture>> textures;
   std::vector<std::unique_ptr<Light>> lights;
   const EnvironmentLight* environment = nullptr;  // one of `lights`, or none
+  std::vector<TriangleMesh> portals;              // where light from far away comes in; no surfaces
 
   CameraConfig camera_config;
   FilmSize film;
@@ -56,6 +58,9 @@ struct Scene {
 
  private:
   void add_placed_shapes();
+  void aim_lights();
+
+  std::unique_ptr<Portals> aims_;  // `portals`, as lights use them
 };
 
 }  // namespace octolux

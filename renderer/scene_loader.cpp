@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/error.h"
+#include "core/hash.h"
 #include "renderer/obj_scene.h"
 #include "renderer/xml_scene.h"
 
@@ -22,6 +23,10 @@ void load_bare_obj(const std::string& path, const LoadOptions& options, Scene& s
     throw Error(path + ": -D " + options.defines.begin()->first +
                 ": an .obj file has no parameters");
   }
+  if (!options.portals.empty()) {
+    throw Error(path + ": --portal " + options.portals.front() +
+                ": no light comes from far away in an .obj file");
+  }
   load_obj_scene(path, scene);
 }
 
@@ -37,6 +42,9 @@ std::unique_ptr<Scene> load_scene(const std::string& path, const LoadOptions& op
   } else {
     throw Error(path + ": a scene is an .xml (Mitsuba) or .obj (Wavefront) file, not '" +
                 extension + "'");
+  }
+  for (const std::string& portal : options.portals) {
+    scene->hash = hash_bytes(scene->hash, portal);
   }
   scene->complete(options.progress);
   return scene;

@@ -14,7 +14,7 @@ namespace {
 class TopLevel {
  public:
   TopLevel(const XmlDocument& document, Scene& scene, const LoadOptions& options)
-      : builder_(document, scene), shapes_(builder_, options.skip_missing), scene_(scene) {
+      : builder_(document, scene), shapes_(builder_, options), scene_(scene) {
     for (const XmlNode& child : document.root().children) add(child);
     shapes_.finish(options.progress);
     for (const XmlNode* emitter : emitters_) add_emitter(*emitter);

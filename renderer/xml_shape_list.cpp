@@ -2,6 +2,7 @@
 #include "renderer/xml_shape_list.h"
 
 #include <algorithm>
+#include <cctype>
 #include <utility>
 
 #include "core/error.h"
@@ -29,7 +30,7 @@ void ShapeList::add(const XmlNode& node, Group& to) {
   Properties properties(node);
   const std::vector<const XmlNode*> emitters = properties.objects("emitter");
   if (emitters.size() > 1) fail(node.where, "a shape takes only one emitter");
-  if (skip_missing_ && !builder_.has_file(properties, "filename")) {
+  if (options_.skip_missing && !builder_.has_file(properties, "filename")) {
     return builder_.warn(node.where, "the shape is left out: its file is missing");
   }
   MadeShape made = make_shape(properties, builder_);
@@ -39,7 +40,10 @@ void ShapeList::add(const XmlNode& node, Group& to) {
     entry_of_request_.push_back(entries_.size());
   }
   to.entries.push_back(entries_.size());
-  entries_.push_back({std::move(made.shape), emitters.empty() ? nullptr : emitters.front()});
+  const XmlNode* portal = is_portal(node, !emitters.empty()) ? &node : nullptr;
+  entries_.push_back(
+      {std::move(made.shape), emitters.empty() ? nullptr : emitters.front(), portal});
+  if (const std::string* id = node.attribute("id")) ids_.push_back(*id);
 }
 
 int ShapeList::group(const XmlNode& node) {
@@ -78,10 +82,47 @@ void ShapeList::load_files(const LoadProgress& progress) {
   if (!requests_.empty()) scene.hash = hash64(scene.hash ^ loaded.hash);
 }
 
-void ShapeList::put(Shape shape, const XmlNode* emitter) {
+/// By option, or because its id or name says so; a light is not one by name.
+bool ShapeList::is_portal(const XmlNode& node, bool emits) const {
+  const std::string* id = node.attribute("id");
+  const std::vector<std::string>& chosen = options_.portals;
+  if (id && std::find(chosen.begin(), chosen.end(), *id) != chosen.end()) {
+    if (emits) fail(node.where, "the portal '" + *id + "' has an emitter; a portal is no surface");
+    return true;
+  }
+  const auto says_so = [](const std::string* name) {
+    std::string text = name ? *name : "";
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text.find("portal") != std::string::npos;
+  };
+  return !emits && (says_so(id) || says_so(node.attribute("name")));
+}
+
+void ShapeList::check_portals() const {
+  for (const std::string& id : options_.portals) {
+    if (std::find(ids_.begin(), ids_.end(), id) != ids_.end()) continue;
+    throw Error("--portal " + id + ": " + unknown_name("shape", id, ids_));
+  }
+}
+
+void ShapeList::put(Shape shape, const Entry& entry) {
+  if (entry.portal) return put_portal(std::move(shape), *entry.portal);
   std::vector<Shape>& shapes = builder_.scene().shapes;
-  if (emitter) area_lights_.emplace_back(emitter, shapes.size());
+  if (entry.emitter) area_lights_.emplace_back(entry.emitter, shapes.size());
   shapes.push_back(std::move(shape));
+}
+
+void ShapeList::put_portal(Shape shape, const XmlNode& node) {
+  auto* mesh = std::get_if<TriangleMesh>(&shape.geometry);
+  if (!mesh) {
+    fail(node.where, "the portal '" + shape.name + "' must consist of triangles, not be a '" +
+                         node.required("type") + "'");
+  }
+  if (!(area(shape) > 0)) fail(node.where, "the portal '" + shape.name + "' has no area");
+  builder_.warn(node.where, "'" + shape.name +
+                                "' is a portal: photons of sun, sky and environment are aimed at "
+                                "it; it is no surface");
+  builder_.scene().portals.push_back(std::move(*mesh));
 }
 
 void ShapeList::expand(const Group& from, const Affine& to_world) {
@@ -105,9 +146,9 @@ void ShapeList::place_groups() {
     std::vector<const Shape*> shared;
     for (const std::size_t e : groups_[g].entries) {
       Entry& entry = entries_[e];
-      if (copy || entry.emitter) {
+      if (copy || entry.emitter || entry.portal) {
         Shape shape = uses[g] == 1 ? std::move(entry.shape) : entry.shape;
-        put(moved(std::move(shape), p.to_world), entry.emitter);
+        put(moved(std::move(shape), p.to_world), entry);
       } else {
         shared.push_back(&entry.shape);
       }
@@ -125,8 +166,9 @@ void ShapeList::place_groups() {
 }
 
 void ShapeList::finish(const LoadProgress& progress) {
+  check_portals();
   load_files(progress);
-  for (const std::size_t e : world_.entries) put(std::move(entries_[e].shape), entries_[e].emitter);
+  for (const std::size_t e : world_.entries) put(std::move(entries_[e].shape), entries_[e]);
   expand(world_, {});
   place_groups();
   for (const auto& [node, g] : group_of_node_) {

@@ -3,22 +3,24 @@
 //
 // A group that stands in the scene once is simply put there. One that stands there several times
 // becomes instances; of its emitters, though, each place gets a copy, because a light has a place
-// of its own, and so does a place whose map shears (core/instance.h, skew). Not thread-safe.
+// of its own, and so does a place whose map shears (core/instance.h, skew). Shapes that are portals
+// (core/light_portal.h) by name or by option go into a list of their own. Not thread-safe.
 #pragma once
 
 #include <map>
 #include <optional>
 #include <vector>
 
+#include "renderer/load_options.h"
 #include "renderer/xml_objects.h"
 
 namespace octolux {
 
 class ShapeList {
  public:
-  /// `skip_missing`: leave out shapes whose file is not there.
-  ShapeList(SceneBuilder& builder, bool skip_missing)
-      : builder_(builder), skip_missing_(skip_missing) {}
+  /// `options` must outlive the list.
+  ShapeList(SceneBuilder& builder, const LoadOptions& options)
+      : builder_(builder), options_(options) {}
 
   /// A <shape> at the top level.
   void add(const XmlNode& node) { add(node, world_); }
@@ -32,6 +34,7 @@ class ShapeList {
   struct Entry {
     Shape shape;
     const XmlNode* emitter = nullptr;
+    const XmlNode* portal = nullptr;  // the shape's node if it is a portal
   };
   struct Placement {
     int group = 0;
@@ -50,10 +53,14 @@ class ShapeList {
   void load_files(const LoadProgress& progress);
   void expand(const Group& from, const Affine& to_world);
   void place_groups();
-  void put(Shape shape, const XmlNode* emitter);
+  bool is_portal(const XmlNode& node, bool emits) const;
+  void check_portals() const;
+  void put(Shape shape, const Entry& entry);
+  void put_portal(Shape shape, const XmlNode& node);
 
   SceneBuilder& builder_;
-  bool skip_missing_;
+  const LoadOptions& options_;
+  std::vector<std::string> ids_;  // of all shapes
   std::vector<Entry> entries_;
   std::vector<MeshRequest> requests_;
   std::vector<std::size_t> entry_of_request_;

@@ -62,6 +62,12 @@ void SceneArguments::add_to(CLI::App& verb) {
       ->type_name("name=value")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  verb.add_option("--portal", portals,
+                  "The shape of this id is an opening through which sun and sky come in, and no "
+                  "surface; repeatable")
+      ->type_name("ID")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   verb.add_flag("--skip-missing", skip_missing,
                 "Leave out shapes whose file is missing, with a warning");
 }
@@ -84,6 +90,7 @@ std::unique_ptr<Scene> SceneArguments::load(ProgressPrinter& printer) const {
     }
     options.defines[define.substr(0, equals)] = define.substr(equals + 1);
   }
+  options.portals = portals;
   options.skip_missing = skip_missing;
   LoadingMonitor monitor(printer);
   options.progress = monitor.progress();

@@ -18,6 +18,7 @@ namespace octolux {
 struct SceneArguments {
   std::string path;
   std::vector<std::string> defines;  // name=value
+  std::vector<std::string> portals;  // ids of shapes
   bool skip_missing = false;
   std::string size;  // WIDTHxHEIGHT; "": the scene's own
 
