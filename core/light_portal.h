@@ -43,7 +43,7 @@ class Portals {
 };
 
 /// Share of an infinite light's photons that are aimed at portals.
-inline constexpr float kPortalShare = 0.8f;
+inline constexpr float kPortalShare = 0.5f;
 
 /// Is it infinitely far away?
 bool is_infinite(const Light& light);

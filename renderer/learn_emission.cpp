@@ -205,7 +205,9 @@ EmissionDensity learn(const Scene& scene, const LightSampler& lights, PhotonKind
       std::clamp(kTrialsPerPhoton * photons, kFewestTrials, kMostTrials) >> (kRounds - 1);
   learner.round(count);
   for (int r = 1; r < kRounds; ++r) {
-    if (learner.telling() && learner.density().gain() < kWorthwhileGain) return {};
+    // With portals, what comes another way is bright and rare, and a first look does not see it.
+    const bool trusted = learner.telling() && scene.portals.empty();
+    if (trusted && learner.density().gain() < kWorthwhileGain) return {};
     learner.round(count);
     count *= 2;
   }

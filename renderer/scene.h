@@ -40,6 +40,7 @@ struct Scene {
 
   std::uint64_t hash = 0;             // of all files read and of -D values
   std::vector<std::string> warnings;  // what was ignored or assumed while loading
+  std::vector<std::string> notes;     // what the file asked for by a name alone
 
   // Built by complete():
   std::unique_ptr<RayCaster> caster;

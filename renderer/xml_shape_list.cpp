@@ -119,10 +119,11 @@ void ShapeList::put_portal(Shape shape, const XmlNode& node) {
                          node.required("type") + "'");
   }
   if (!(area(shape) > 0)) fail(node.where, "the portal '" + shape.name + "' has no area");
-  builder_.warn(node.where, "'" + shape.name +
-                                "' is a portal: photons of sun, sky and environment are aimed at "
-                                "it; it is no surface");
-  builder_.scene().portals.push_back(std::move(*mesh));
+  Scene& scene = builder_.scene();
+  scene.notes.push_back("'" + shape.name +
+                        "' is a portal, not a surface: photons of sun, sky and environment are "
+                        "aimed at it");
+  scene.portals.push_back(std::move(*mesh));
 }
 
 void ShapeList::expand(const Group& from, const Affine& to_world) {

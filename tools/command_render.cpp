@@ -138,6 +138,7 @@ int RenderCommand::run() {
 
   const std::unique_ptr<Scene> scene = scene_.load(printer);
   for (const std::string& warning : scene->warnings) printer.say("warning: " + warning);
+  for (const std::string& note : scene->notes) printer.say(note);
   printer.say(describe(*scene, settings));
 
   Session session(printer, [&](const Progress& progress, const Film& film) {
