@@ -58,9 +58,10 @@ TEST_F(PortalCommand, ByOptionIsNoSurface) {
 
 TEST_F(PortalCommand, Refusals) {
   expect_refusal(render("", {"--portal", "blokc"}), "--portal blokc: unknown shape 'blokc'");
-  expect_refusal(render("<shape type='rectangle' id='portal'><transform name='to_world'>"
-                        "<scale x='0'/></transform></shape>"),
-                 "the portal 'portal' has no area");
+  std::ofstream(folder_ / "line.obj") << "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n";
+  expect_refusal(render("<shape type='obj' id='portal'><string name='filename' value='line.obj'/>"
+                        "</shape>"),
+                 "scene.xml:6: the portal 'portal' has no area");
   expect_refusal(render("<shape type='sphere' id='portal'/>"), "must consist of triangles");
   expect_refusal(render("<shape type='rectangle' id='lamp'><emitter type='area'/></shape>",
                         {"--portal", "lamp"}),
