@@ -14,6 +14,9 @@ namespace {
 
 constexpr std::size_t kCellLookUps = 32;  // at most
 constexpr float kMargin = 0.1f;           // of a cell's diagonal
+/// What is nearer to a point than this share of the point's distance to the eye is not told apart:
+/// there the map is not read, but the gather ray goes on (final_gather.h).
+constexpr float kNear = 1 / 16.0f;
 
 constexpr std::int64_t kEyePaths = 8192;
 constexpr int kGatherRays = 2;
@@ -22,19 +25,31 @@ constexpr int kMaxBounces = 32;       // specular ones, without roulette
 
 float component(Vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
-/// Follows `ray` through specular lobes to the first smooth ones, and adds that place. Then, from
-/// there, `gather_rays` times once more.
-void look(Tracer& tracer, Ray ray, int gather_rays, std::vector<LookUp>& found) {
+/// Places found, and the eye that looks.
+struct Glances {
+  Vec3 eye;
+  std::vector<LookUp> found;
+
+  bool near(Vec3 a, Vec3 b) const { return length(a - b) < kNear * length(a - eye); }
+};
+
+/// Follows `ray` through specular lobes to the first smooth ones, and adds that place. Or else,
+/// from there, looks `gather_rays` times once more, and leaves out what is near.
+void look(Tracer& tracer, Ray ray, int gather_rays, Glances& glances) {
   Rgb beta(1);
   for (int bounces = 0, segments = 0; bounces < kMaxBounces; ++bounces) {
     const std::optional<SurfaceHit> hit = tracer.next(ray, beta, segments);
     if (!hit) return;
     const Scattering at(hit->point, *hit->bsdf, -ray.direction, Carried::radiance);
+    const Vec3 here = hit->point.position;
     if (hit->bsdf->has(Lobes::smooth)) {
-      if (gather_rays == 0) found.push_back({hit->point.position, at.facing_normal()});
+      if (gather_rays == 0) glances.found.push_back({here, at.facing_normal()});
       for (int i = 0; i < gather_rays; ++i) {
+        const std::size_t before = glances.found.size();
         const std::optional<BsdfSample> s = sample_lobes(tracer.rng, at, Lobes::smooth);
-        if (s) look(tracer, at.spawn(s->wi), 0, found);
+        if (s) look(tracer, at.spawn(s->wi), 0, glances);
+        const bool added = glances.found.size() > before;
+        if (added && glances.near(here, glances.found.back().position)) glances.found.pop_back();
       }
       return;
     }
@@ -52,26 +67,27 @@ int EyeCells::facing(Vec3 normal) {
   return 2 * axis + (component(normal, axis) < 0 ? 1 : 0);
 }
 
-EyeCells::EyeCells(std::vector<LookUp> look_ups) {
+EyeCells::EyeCells(std::vector<LookUp> look_ups, Vec3 eye) {
   auto begin = look_ups.begin();
   for (int f = 0; f < kFacings; ++f) {
     const auto end = std::stable_partition(begin, look_ups.end(),
                                            [f](const LookUp& l) { return facing(l.normal) == f; });
     if (begin == end) continue;
     roots_[static_cast<std::size_t>(f)] = static_cast<int>(nodes_.size());
-    build({begin, end});
+    build({begin, end}, eye);
     begin = end;
   }
 }
 
-void EyeCells::build(std::span<LookUp> look_ups) {
+void EyeCells::build(std::span<LookUp> look_ups, Vec3 eye) {
   const std::size_t here = nodes_.size();
   nodes_.emplace_back();
   Bounds bounds;
   for (const LookUp& l : look_ups) bounds.add(l.position);
   const Vec3 size = bounds.upper - bounds.lower;
   const int axis = facing(size) / 2;
-  if (look_ups.size() <= kCellLookUps || !(component(size, axis) > 0)) {
+  const float small = kNear * length(bounds.center() - eye);
+  if (look_ups.size() <= kCellLookUps || !(component(size, axis) > small)) {
     const float margin = kMargin * length(size);
     const Vec3 wide{margin, margin, margin};
     nodes_[here].other = static_cast<int>(cells_.size());
@@ -85,9 +101,9 @@ void EyeCells::build(std::span<LookUp> look_ups) {
                      return component(a.position, axis) < component(b.position, axis);
                    });
   const float split = component(look_ups[half].position, axis);
-  build(look_ups.first(half));
+  build(look_ups.first(half), eye);
   nodes_[here] = {axis, split, static_cast<int>(nodes_.size())};
-  build(look_ups.subspan(half));
+  build(look_ups.subspan(half), eye);
 }
 
 int EyeCells::find(Vec3 position, Vec3 normal) const {
@@ -105,7 +121,8 @@ int EyeCells::find(Vec3 position, Vec3 normal) const {
 
 EyeCells look_around(const Scene& scene, PhotonKind kind, bool gather, std::uint64_t seed) {
   const int gather_rays = kind == PhotonKind::global && gather ? kGatherRays : 0;
-  std::vector<std::vector<LookUp>> parts(kEyePaths / kChunk);
+  const Vec3 eye = scene.camera_config.to_world.point({0, 0, 0});
+  std::vector<Glances> parts(kEyePaths / kChunk, Glances{eye, {}});
   parallel_for_chunks(kEyePaths, kChunk,
                       [&](std::int64_t chunk, std::int64_t begin, std::int64_t end) {
                         for (std::int64_t i = begin; i < end; ++i) {
@@ -120,8 +137,10 @@ EyeCells look_around(const Scene& scene, PhotonKind kind, bool gather, std::uint
                         }
                       });
   std::vector<LookUp> all;
-  for (const std::vector<LookUp>& part : parts) all.insert(all.end(), part.begin(), part.end());
-  return EyeCells(std::move(all));
+  for (const Glances& part : parts) {
+    all.insert(all.end(), part.found.begin(), part.found.end());
+  }
+  return EyeCells(std::move(all), eye);
 }
 
 }  // namespace octolux

@@ -22,7 +22,8 @@ struct LookUp {
 class EyeCells {
  public:
   EyeCells() = default;
-  explicit EyeCells(std::vector<LookUp> look_ups);
+  /// Cells are not much smaller than they need be for an `eye` there.
+  EyeCells(std::vector<LookUp> look_ups, Vec3 eye);
 
   /// The cell a photon lies in, or -1. O(log cells).
   int find(Vec3 position, Vec3 normal) const;
@@ -40,7 +41,7 @@ class EyeCells {
     Bounds bounds;  // a little wider than its look-ups
     int look_ups = 0;
   };
-  void build(std::span<LookUp> look_ups);
+  void build(std::span<LookUp> look_ups, Vec3 eye);
 
   static constexpr int kFacings = 6;  // +-x, +-y, +-z
   static int facing(Vec3 normal);

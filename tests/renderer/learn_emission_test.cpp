@@ -110,6 +110,16 @@ TEST(LearnEmission, OffWhereItBringsLittle) {
   EXPECT_TRUE(learn_emission(*room, LightSampler(*room), config).global.uniform());
 }
 
+/// In a corner seen from close most gather rays end where the map is not read.
+TEST(LearnEmission, ACornerSeenFromCloseTeachesNothing) {
+  const auto scene = scene_from(
+      "<scene version='3.0.0'>" + sensor_xml("0.2, 0.1, 0.3", "-1, -1, -1", 0.5, 8, 8) +
+      "<shape type='cube'><boolean name='flip_normals' value='true'/><emitter type='area'/></shape>"
+      "</scene>");
+  const LightSampler lights(*scene);
+  EXPECT_TRUE(learn_emission(*scene, lights, photon_config(1, 20'000)).global.uniform());
+}
+
 TEST(LearnEmission, NoLightAndNothingSeen) {
   const std::string view = sensor_xml("0, 0, 9", "0, 0, 10", 40, 8, 8);  // away from everything
   const auto unseen = scene_from("<scene version='3.0.0'>" + view +
