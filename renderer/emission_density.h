@@ -28,7 +28,7 @@ using EmissionPoint = std::array<float, 5>;
 
 class EmissionDensity {
  public:
-  static constexpr double kDefensiveShare = 1.0 / 3;
+  static constexpr double kDefensiveShare = 0.5;
 
   struct Trial {
     EmissionPoint at{};
