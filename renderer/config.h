@@ -17,7 +17,7 @@ struct PhotonConfig {
   double global_radius = 10;  // look-up limit, in units of the mean n-photon radius
   double caustic_radius = 2;  // the same for the caustic map
   double alpha = 2.0 / 3;     // Knaus & Zwicker's: how fast the bandwidth shrinks; 1: never
-  bool learn = true;          // aim photons at what the eye looks at, where that pays
+  bool learn = true;          // aim photons at what gather rays will read, where that pays
 };
 
 struct EyeConfig {

@@ -119,8 +119,8 @@ int EyeCells::find(Vec3 position, Vec3 normal) const {
   return inside ? cell : -1;
 }
 
-EyeCells look_around(const Scene& scene, PhotonKind kind, bool gather, std::uint64_t seed) {
-  const int gather_rays = kind == PhotonKind::global && gather ? kGatherRays : 0;
+EyeCells look_around(const Scene& scene, PhotonKind kind, std::uint64_t seed) {
+  const int gather_rays = kind == PhotonKind::global ? kGatherRays : 0;
   const Vec3 eye = scene.camera_config.to_world.point({0, 0, 0});
   std::vector<Glances> parts(kEyePaths / kChunk, Glances{eye, {}});
   parallel_for_chunks(kEyePaths, kChunk,

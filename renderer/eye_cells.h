@@ -52,7 +52,7 @@ class EyeCells {
 };
 
 /// Where the eye will read the map of `kind`: a few thousand eye paths of their own, on to the end
-/// of gather rays for the global map if `gather`. The same on any number of threads.
-EyeCells look_around(const Scene& scene, PhotonKind kind, bool gather, std::uint64_t seed);
+/// of gather rays for the global map. The same on any number of threads.
+EyeCells look_around(const Scene& scene, PhotonKind kind, std::uint64_t seed);
 
 }  // namespace octolux

@@ -194,9 +194,9 @@ EmissionDensity learn(const Scene& scene, const LightSampler& lights, PhotonKind
                       const RenderConfig& config, const EmissionDensity& first) {
   const bool global = kind == PhotonKind::global;
   const std::int64_t photons = global ? config.photons.global : config.photons.caustic;
-  if (!config.photons.learn || photons == 0 || lights.empty()) return {};
+  if (photons == 0 || lights.empty()) return {};
   if (!global && !scene.any_specular) return {};
-  EyeCells cells = look_around(scene, kind, config.eye.gather, config.seed);
+  EyeCells cells = look_around(scene, kind, config.seed);
   if (cells.size() == 0) return {};
 
   Learner learner(scene, lights, kind, std::move(cells), config.seed);
@@ -219,11 +219,10 @@ EmissionDensity learn(const Scene& scene, const LightSampler& lights, PhotonKind
 PhotonAim learn_emission(const Scene& scene, const LightSampler& lights,
                          const RenderConfig& config) {
   PhotonAim aim;
+  if (!config.photons.learn || !config.eye.gather) return aim;
   aim.global = learn(scene, lights, PhotonKind::global, config, {});
   // Caustics are of the light that comes in, so they are looked for there.
-  if (config.eye.gather) {
-    aim.caustic = learn(scene, lights, PhotonKind::caustic, config, aim.global);
-  }
+  aim.caustic = learn(scene, lights, PhotonKind::caustic, config, aim.global);
   return aim;
 }
 

@@ -24,7 +24,8 @@ namespace octolux {
 /// less even, and scatter more.
 inline constexpr double kWorthwhileGain = 1.5;
 
-/// Densities for the photons of both maps; uniform where learning is off or would bring too little.
+/// Densities for the photons of both maps; uniform where learning is off or would bring too little,
+/// and without final gathering: who looks at the map itself sees photons as the lights emit them.
 struct PhotonAim {
   EmissionDensity global, caustic;
 };

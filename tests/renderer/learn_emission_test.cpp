@@ -108,6 +108,9 @@ TEST(LearnEmission, OffWhereItBringsLittle) {
   RenderConfig config = photon_config(1, 20'000);
   config.photons.learn = false;
   EXPECT_TRUE(learn_emission(*room, LightSampler(*room), config).global.uniform());
+  config.photons.learn = true;
+  config.eye.gather = false;  // the map as it is
+  EXPECT_TRUE(learn_emission(*room, LightSampler(*room), config).global.uniform());
 }
 
 /// In a corner seen from close most gather rays end where the map is not read.

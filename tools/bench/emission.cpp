@@ -76,7 +76,7 @@ void report(const std::string& path, const std::string& with_portals) {
   RenderConfig config;
   config =
       resolved(config, static_cast<std::int64_t>(scene->film.crop_width) * scene->film.crop_height);
-  const EyeCells cells = look_around(*scene, PhotonKind::global, true, config.seed);
+  const EyeCells cells = look_around(*scene, PhotonKind::global, config.seed);
   const Stopwatch watch;
   const EmissionDensity learned = learn_emission(*scene, lights, config).global;
   const double seconds = watch.seconds();
