@@ -84,7 +84,8 @@ GatherRecords make_records(const Job& job, const RadianceMap& map, PassKey key,
   const RenderConfig& config = job.config;
   if (!config.eye.gather || !(config.eye.reuse > 0)) return {};
   Stopwatch watch;
-  const PhotonPass traced = trace_photons(job.scene, job.lights, PhotonKind::record,
+  const PhotonSource source{job.lights, job.aim.global};
+  const PhotonPass traced = trace_photons(job.scene, source, PhotonKind::record,
                                           record_paths(config, map.bandwidth()), key);
   progress.rays += traced.rays;
   progress.timing.photons += watch.lap();
