@@ -12,8 +12,8 @@
 namespace octolux {
 namespace {
 
-constexpr std::size_t kParallelItems = 8192;  // below, a task costs more than it saves
-constexpr std::uint32_t kMaxLeaves = 1u << 28;
+constexpr std::size_t kParallelItems = 8192;    // below, a task costs more than it saves
+constexpr std::uint32_t kMaxLeaves = 1u << 25;  // so that coordinate_offset is below 2^31
 
 std::uint32_t widest_axis(std::span<const PhotonTree::Item> items) {
   Vec3 lower = items[0].position;

@@ -49,6 +49,13 @@ class PhotonTree {
     const std::uint32_t lane = photon % kBlockSize;
     return {b.x[lane], b.y[lane], b.z[lane]};
   }
+  /// All coordinates: x of a photon is at coordinate_offset(photon), its y and z are kBlockSize and
+  /// 2 kBlockSize behind. Photons may be a vector of indices; offsets are below 2^31.
+  const float* coordinates() const { return blocks_.empty() ? nullptr : blocks_[0].x; }
+  template <class Photons>
+  static Photons coordinate_offset(Photons photons) {
+    return photons + 2 * (photons & ~static_cast<int>(kBlockSize - 1));
+  }
   std::size_t memory() const {
     return blocks_.capacity() * sizeof(Block) + nodes_.capacity() * sizeof(Node);
   }

@@ -36,6 +36,20 @@ RTCRayHit8 to_embree(const RayPacket& packet) {
 
 struct RayCaster::Impl : EmbreeScene {
   using EmbreeScene::EmbreeScene;
+
+  /// Corners of primitive `primitive` of the shape of this number, if it is a triangle.
+  std::optional<std::array<Vec3, 3>> corners(std::uint32_t number, std::uint32_t primitive) const {
+    const auto [shape, instance] = find(number);
+    const auto* mesh = std::get_if<TriangleMesh>(&shape->geometry);
+    if (mesh == nullptr || primitive >= mesh->triangles.size()) return std::nullopt;
+    const auto& corner = mesh->triangles[primitive];
+    const Vec3* at = mesh->positions.data();
+    std::array found{at[corner[0]], at[corner[1]], at[corner[2]]};
+    if (instance) {
+      for (Vec3& p : found) p = instance->to_world.point(p);
+    }
+    return found;
+  }
 };
 
 RayCaster::RayCaster(std::span<const Shape> shapes, std::span<const Instance> instances,
@@ -90,19 +104,37 @@ std::array<PacketHit, RayPacket::kSize> RayCaster::closest_hits(const RayPacket&
   return hits;
 }
 
-std::optional<std::array<Vec3, 3>> RayCaster::triangle(std::uint32_t number,
+void RayCaster::visit_near(Vec3 p, float radius, NearFunction function, void* visitor) const {
+  struct Visit {
+    const Impl& scene;
+    NearFunction function;
+    void* visitor;
+  } visit{*impl_, function, visitor};
+  const auto show = [](RTCPointQueryFunctionArguments* args) {
+    const Visit& v = *static_cast<const Visit*>(args->userPtr);
+    const RTCPointQueryContext& stack = *args->context;
+    const unsigned placed_by = stack.instStackSize > 0 ? stack.instID[0] : RTC_INVALID_GEOMETRY_ID;
+    const std::uint32_t number = v.scene.number(args->geomID, placed_by);
+    bool more = true;
+    if (const auto corners = v.scene.corners(number, args->primID)) {
+      const auto& [a, b, c] = *corners;
+      const NearTriangle triangle{std::uint64_t{number} << 32 | args->primID, a, b, c};
+      more = v.function(v.visitor, &triangle);
+    } else {
+      more = v.function(v.visitor, nullptr);
+    }
+    if (!more) args->query->radius = 0;
+    return !more;
+  };
+  RTCPointQuery query{p.x, p.y, p.z, 0, radius};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(impl_->handle(), &query, &context, show, &visit);
+}
+
+std::optional<std::array<Vec3, 3>> RayCaster::triangle(std::uint32_t shape,
                                                        std::uint32_t primitive) const {
-  if (!impl_->has(number)) return std::nullopt;
-  const auto [shape, instance] = impl_->find(number);
-  const auto* mesh = std::get_if<TriangleMesh>(&shape->geometry);
-  if (mesh == nullptr || primitive >= mesh->triangles.size()) return std::nullopt;
-  const auto& corner = mesh->triangles[primitive];
-  std::array corners{mesh->positions[corner[0]], mesh->positions[corner[1]],
-                     mesh->positions[corner[2]]};
-  if (instance) {
-    for (Vec3& p : corners) p = instance->to_world.point(p);
-  }
-  return corners;
+  return impl_->has(shape) ? impl_->corners(shape, primitive) : std::nullopt;
 }
 
 SurfacePoint RayCaster::surface(const RayHit& hit) const {

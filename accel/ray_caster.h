@@ -47,6 +47,15 @@ struct PlacedShape {
   std::uint32_t instance = 0;  // in the list of instances
 };
 
+/// A triangle near a point. A primitive may come twice.
+struct NearTriangle {
+  std::uint64_t id;
+  const Vec3 &a, &b, &c;
+};
+/// What is to be done with each (null: a shape that is no mesh), on `visitor`. False: no more,
+/// please. A pointer to a function, because it is called for all that is near.
+using NearFunction = bool (*)(void* visitor, const NearTriangle* triangle);
+
 /// Thread-safe after construction. Uses Embree's robust mode: edges shared by triangles are
 /// watertight, because a ray slipping between two walls is a light leak. (Vertices are so up to
 /// rounding: of rays aimed at one exactly, a few in a thousand pass.)
@@ -68,6 +77,8 @@ class RayCaster {
   bool occluded(const Ray& ray) const;
   /// Closest hits of the active lanes.
   std::array<PacketHit, RayPacket::kSize> closest_hits(const RayPacket& packet) const;
+  /// Shows the primitives whose bounds come nearer to `p` than `radius` [m].
+  void visit_near(Vec3 p, float radius, NearFunction function, void* visitor) const;
   /// Corners of a primitive that is a triangle.
   std::optional<std::array<Vec3, 3>> triangle(std::uint32_t shape, std::uint32_t primitive) const;
   /// The surface at a hit.

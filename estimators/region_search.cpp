@@ -1,7 +1,10 @@
-// region_search.h: how far the feelers go, and how often.
+// region_search.h: how far the feelers go, and how often. Where the scene says that there is
+// nothing to meet on the way, none are sent.
 #include "estimators/region_search.h"
 
 #include <algorithm>
+
+#include "estimators/clearance.h"
 
 namespace octolux {
 
@@ -41,16 +44,23 @@ RegionDisc find_in_region(const GatherPoint& at, const PhotonMap& map, const Ban
   PhotonQuery query = photon_query(at, bandwidth);
   FeelerQuery feelers = feeler_query(at, config.feelers);
   feelers.edges = config.edges;
-  float reach = kMargin * map.rough_distance(query.position, wanted);
-  if (!(reach > 0)) reach = limit;
+  query.rough_radius = kMargin;
+  float reach = limit;
   for (;; reach *= 2) {
-    reach = std::min(reach, limit);
+    query.max_radius = std::min(reach, limit);
+    if (query.region != nullptr) result.region = FreeRegion(at.at.facing_normal());
+    query.region = nullptr;
+    std::span<const Neighbour> found = map.nearest(query, wanted, buffer);
+    reach = query.max_radius = buffer.max_radius;
+    query.rough_radius = 0;
     if (!(reach > 0)) return result;
     feelers.length = reach / std::cos(kPi / static_cast<float>(config.feelers));
-    result.region = FreeRegion(*at.caster, feelers);
-    query.region = &result.region.photons();
-    query.max_radius = reach;
-    const std::span<const Neighbour> found = map.nearest(query, wanted, buffer);
+    const float needed = found.size() == wanted ? std::sqrt(found.back().distance2) : reach;
+    if (!is_clear(*at.caster, feelers, needed)) {
+      result.region = FreeRegion(*at.caster, feelers);
+      query.region = &result.region.photons();
+      found = map.nearest(query, wanted, buffer);
+    }
     if (found.size() == wanted) {
       result.disc = {found.first(found.size() - 1), 0, found.back().distance2};
       break;
