@@ -104,6 +104,11 @@ float shrink_to_guess(const PhotonQuery& query, float rough2, NeighbourBuffer& b
   return buffer.max_radius * buffer.max_radius;
 }
 
+Neighbour* room_for(NeighbourBuffer& buffer, std::size_t count) {
+  if (buffer.items.size() < count) buffer.items.resize(count);
+  return buffer.items.data();
+}
+
 /// Where a look-up may find photons. Decided at compile time, so a look-up without a region pays
 /// nothing for those with one.
 struct Anywhere {
@@ -213,10 +218,7 @@ std::span<const Neighbour> PhotonMap::nearest_in(Region region, const PhotonQuer
   k = std::min(k, size());
   if (k == 0) return {};
   const std::size_t full = k + k / 2 + PhotonTree::kBlockSize;
-  if (buffer.items.size() < full + PhotonTree::kBlockSize) {
-    buffer.items.resize(full + PhotonTree::kBlockSize);
-  }
-  Neighbour* items = buffer.items.data();
+  Neighbour* items = room_for(buffer, full + PhotonTree::kBlockSize);
   const float squash = squash_factor(query);
   PhotonFilter counts(query);
   PhotonTreeWalk walk(tree_, query.position);

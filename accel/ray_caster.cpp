@@ -121,7 +121,10 @@ void RayCaster::visit_near(Vec3 p, float radius, NearFunction function, void* vi
       const NearTriangle triangle{std::uint64_t{number} << 32 | args->primID, a, b, c};
       more = v.function(v.visitor, &triangle);
     } else {
-      more = v.function(v.visitor, nullptr);
+      const Bounds box = octolux::bounds(v.shapes[args->geomID]);
+      const Vec3 at{args->query->x, args->query->y, args->query->z};
+      const Vec3 away = max(max(box.lower - at, at - box.upper), Vec3{0, 0, 0});
+      more = length(away) > args->query->radius || v.function(v.visitor, nullptr);
     }
     if (!more) args->query->radius = 0;
     return !more;

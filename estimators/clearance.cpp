@@ -84,8 +84,11 @@ class Obstacles {
     for (int i = 0; i < tile_count_; ++i) {
       if (tiles_[i].id == id) return;
     }
-    met_ = tile_count_ == kMostTiles;
-    if (!met_) tiles_[tile_count_++] = {id, p};
+    if (tile_count_ == kMostTiles) {
+      met_ = true;
+    } else {
+      tiles_[tile_count_++] = {id, p};
+    }
   }
 
   /// On which side of edge k `p` is.
