@@ -50,6 +50,12 @@ struct RayCaster::Impl : EmbreeScene {
     }
     return found;
   }
+
+  Bounds box(std::uint32_t number) const {
+    const auto [shape, instance] = find(number);
+    const Bounds box = octolux::bounds(*shape);
+    return instance ? place(box, instance->to_world) : box;
+  }
 };
 
 RayCaster::RayCaster(std::span<const Shape> shapes, std::span<const Instance> instances,
@@ -109,7 +115,9 @@ void RayCaster::visit_near(Vec3 p, float radius, NearFunction function, void* vi
     const Impl& scene;
     NearFunction function;
     void* visitor;
-  } visit{*impl_, function, visitor};
+    Vec3 p;
+    float radius;
+  } visit{*impl_, function, visitor, p, radius};
   const auto show = [](RTCPointQueryFunctionArguments* args) {
     const Visit& v = *static_cast<const Visit*>(args->userPtr);
     const RTCPointQueryContext& stack = *args->context;
@@ -121,10 +129,9 @@ void RayCaster::visit_near(Vec3 p, float radius, NearFunction function, void* vi
       const NearTriangle triangle{std::uint64_t{number} << 32 | args->primID, a, b, c};
       more = v.function(v.visitor, &triangle);
     } else {
-      const Bounds box = octolux::bounds(v.shapes[args->geomID]);
-      const Vec3 at{args->query->x, args->query->y, args->query->z};
-      const Vec3 away = max(max(box.lower - at, at - box.upper), Vec3{0, 0, 0});
-      more = length(away) > args->query->radius || v.function(v.visitor, nullptr);
+      const Bounds box = v.scene.box(number);
+      const Vec3 away = max(max(box.lower - v.p, v.p - box.upper), Vec3{0, 0, 0});
+      more = length(away) > v.radius || v.function(v.visitor, nullptr);
     }
     if (!more) args->query->radius = 0;
     return !more;
