@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "accel/photon_filter.h"
@@ -81,45 +80,12 @@ struct BlockDistances {
   }
 };
 
-/// Squared distance of the k-th photon from the query, guessed from the leaf it is in.
-float rough_distance2(const BlockDistances& leaf, std::size_t k) {
-  constexpr std::uint32_t kHalf = PhotonTree::kBlockSize / 2;
-  float sums[kHalf], counts[kHalf];  // of two lanes each, for SIMD
-  for (std::uint32_t i = 0; i < kHalf; ++i) {
-    const float a = leaf.distance2[i], b = leaf.distance2[i + kHalf];
-    sums[i] = (a < kInfinity ? a : 0) + (b < kInfinity ? b : 0);
-    counts[i] = (a < kInfinity ? 1.0f : 0.0f) + (b < kInfinity ? 1.0f : 0.0f);
-  }
-  const float sum = std::accumulate(sums, sums + kHalf, 0.0f);
-  const float count = std::accumulate(counts, counts + kHalf, 0.0f);
-  // Two random points of a square leaf are at a mean squared distance of a third of its area.
-  const float area = 3 * sum / count;
-  return area * (static_cast<float>(k) / count) * kInvPi;
-}
-
-/// Notes how far a look-up with a guess goes, and returns the square of that.
-float shrink_to_guess(const PhotonQuery& query, float rough2, NeighbourBuffer& buffer) {
-  const float guess = query.rough_radius * std::sqrt(rough2);
-  if (guess > 0) buffer.max_radius = std::min(buffer.max_radius, guess);
-  return buffer.max_radius * buffer.max_radius;
-}
-
-Neighbour* room_for(NeighbourBuffer& buffer, std::size_t count) {
-  if (buffer.items.size() < count) buffer.items.resize(count);
-  return buffer.items.data();
-}
-
 /// Where a look-up may find photons. Decided at compile time, so a look-up without a region pays
 /// nothing for those with one.
 struct Anywhere {
-  static constexpr bool kGuesses = false;
   bool contains(Vec3, float) const { return true; }
 };
-struct Nearby : Anywhere {
-  static constexpr bool kGuesses = true;  // first how far to look
-};
 struct Inside {
-  static constexpr bool kGuesses = false;
   const PhotonRegion& region;
   Vec3 position;
   bool contains(Vec3 photon, float distance2) const {
@@ -200,7 +166,6 @@ std::size_t PhotonMap::memory() const {
 
 std::span<const Neighbour> PhotonMap::nearest(const PhotonQuery& query, std::size_t k,
                                               NeighbourBuffer& buffer) const {
-  if (query.rough_radius > 0) return nearest_in(Nearby{}, query, k, buffer);
   if (query.region == nullptr) return nearest_in(Anywhere{}, query, k, buffer);
   return nearest_in(Inside{*query.region, query.position}, query, k, buffer);
 }
@@ -211,28 +176,46 @@ std::span<const Neighbour> PhotonMap::within(const PhotonQuery& query,
   return within_in(Inside{*query.region, query.position}, query, buffer);
 }
 
+float PhotonMap::rough_distance(Vec3 position, std::size_t k) const {
+  PhotonTreeWalk walk(tree_, position);
+  const std::uint32_t b = walk.next<PhotonTreeWalk::Order::nearest_first>(kInfinity);
+  if (b == PhotonTreeWalk::kEnd) return kInfinity;
+  const PhotonTree::Block& block = tree_.block(b);
+  float sum = 0;
+  float count = 0;
+  for (std::uint32_t lane = 0; lane < PhotonTree::kBlockSize; ++lane) {
+    const float dx = block.x[lane] - position.x;
+    const float dy = block.y[lane] - position.y;
+    const float dz = block.z[lane] - position.z;
+    const float d2 = dx * dx + dy * dy + dz * dz;
+    const bool there = d2 < kInfinity;
+    sum += there ? d2 : 0;
+    count += there ? 1 : 0;
+  }
+  // Two random points of a square leaf are at a mean squared distance of a third of its area.
+  const float area = 3 * sum / count;
+  return std::sqrt(area * (static_cast<float>(k) / count) * kInvPi);
+}
+
 template <class Region>
 std::span<const Neighbour> PhotonMap::nearest_in(Region region, const PhotonQuery& query,
                                                  std::size_t k, NeighbourBuffer& buffer) const {
-  buffer.max_radius = query.max_radius;
   k = std::min(k, size());
   if (k == 0) return {};
   const std::size_t full = k + k / 2 + PhotonTree::kBlockSize;
-  Neighbour* items = room_for(buffer, full + PhotonTree::kBlockSize);
+  if (buffer.items.size() < full + PhotonTree::kBlockSize) {
+    buffer.items.resize(full + PhotonTree::kBlockSize);
+  }
+  Neighbour* items = buffer.items.data();
   const float squash = squash_factor(query);
   PhotonFilter counts(query);
   PhotonTreeWalk walk(tree_, query.position);
   float limit = query.max_radius * query.max_radius;
-  bool guess = Region::kGuesses;
   std::size_t count = 0;
   for (;;) {
     const std::uint32_t b = walk.next<PhotonTreeWalk::Order::nearest_first>(limit);
     if (b == PhotonTreeWalk::kEnd) break;
     const BlockDistances block(tree_.block(b), query, squash);
-    if (guess) {
-      limit = shrink_to_guess(query, rough_distance2(block, k), buffer);
-      guess = false;
-    }
     for (std::uint32_t near = block.nearer_than(limit); near != 0; near &= near - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(near));
       const std::uint32_t photon = b * PhotonTree::kBlockSize + lane;

@@ -22,7 +22,6 @@ struct PhotonQuery {
   Vec3 position;
   Vec3 normal;               // geometric, unit, on the side of the viewer
   float max_radius = 1e30f;  // [m] in the squashed metric
-  float rough_radius = 0;    // if > 0: look at most so many times a guess far; no region then
   int max_segments = 255;    // photons with longer paths do not count
   bool both_sides = false;   // count photons arriving from either side (smooth transmission)
   float squash = 3;          // >= 1; metric |d|^2 + (squash^2 - 1) (d . normal)^2 (Jensen 2002)
@@ -41,7 +40,6 @@ constexpr bool operator<(const Neighbour& a, const Neighbour& b) {
 /// Scratch space of one thread's queries; reused, so queries do not allocate.
 struct NeighbourBuffer {
   std::vector<Neighbour> items;
-  float max_radius = 0;  // [m] how far the last nearest() looked
 };
 
 class PhotonMap {
@@ -53,13 +51,16 @@ class PhotonMap {
 
   /// The k nearest photons that count, at a distance below max_radius, smallest k by (distance2,
   /// photon); fewer if there are fewer. Not sorted, except that the last one is the farthest.
-  /// The span points into `buffer`. The guess of a query that wants one is the distance of the k-th
-  /// photon, from the leaf at the query alone, whether its photons count or not: right within a
-  /// small factor where the density is even.
+  /// The span points into `buffer`.
   std::span<const Neighbour> nearest(const PhotonQuery& query, std::size_t k,
                                      NeighbourBuffer& buffer) const;
   /// All photons that count at a distance below query.max_radius, in the map's order.
   std::span<const Neighbour> within(const PhotonQuery& query, NeighbourBuffer& buffer) const;
+
+  /// A guess at the distance of the k-th photon, from the leaf at `position` alone, whether its
+  /// photons count or not: right within a small factor where the density is even. Not 0 unless
+  /// photons coincide; infinite for an empty map.
+  float rough_distance(Vec3 position, std::size_t k) const;
 
   std::size_t size() const { return payloads_.size(); }
   std::size_t rejected() const { return rejected_; }

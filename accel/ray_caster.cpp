@@ -1,5 +1,6 @@
 // RayCaster: rays to Embree and hits back. Embree answers an instance's hit in the group's space
 // (normals, the object position of a quadric); only t needs no change. Thread-safe.
+#include <algorithm>
 #include <array>
 
 #include "accel/embree_scene.h"
@@ -51,10 +52,14 @@ struct RayCaster::Impl : EmbreeScene {
     return found;
   }
 
-  Bounds box(std::uint32_t number) const {
+  NearPrimitive near_primitive(std::uint32_t number, std::uint32_t primitive, Vec3 p) const {
+    const std::uint64_t id = std::uint64_t{number} << 32 | primitive;
+    if (const auto found = corners(number, primitive)) return {id, *found};
     const auto [shape, instance] = find(number);
-    const Bounds box = octolux::bounds(*shape);
-    return instance ? place(box, instance->to_world) : box;
+    Bounds box = octolux::bounds(*shape);
+    if (instance) box = place(box, instance->to_world);
+    const Vec3 away = max(max(box.lower - p, p - box.upper), Vec3{0, 0, 0});
+    return {id, {}, false, length(away)};
   }
 };
 
@@ -113,28 +118,19 @@ std::array<PacketHit, RayPacket::kSize> RayCaster::closest_hits(const RayPacket&
 void RayCaster::visit_near(Vec3 p, float radius, NearFunction function, void* visitor) const {
   struct Visit {
     const Impl& scene;
+    Vec3 p;
     NearFunction function;
     void* visitor;
-    Vec3 p;
-    float radius;
-  } visit{*impl_, function, visitor, p, radius};
+  } visit{*impl_, p, function, visitor};
   const auto show = [](RTCPointQueryFunctionArguments* args) {
     const Visit& v = *static_cast<const Visit*>(args->userPtr);
     const RTCPointQueryContext& stack = *args->context;
     const unsigned placed_by = stack.instStackSize > 0 ? stack.instID[0] : RTC_INVALID_GEOMETRY_ID;
     const std::uint32_t number = v.scene.number(args->geomID, placed_by);
-    bool more = true;
-    if (const auto corners = v.scene.corners(number, args->primID)) {
-      const auto& [a, b, c] = *corners;
-      const NearTriangle triangle{std::uint64_t{number} << 32 | args->primID, a, b, c};
-      more = v.function(v.visitor, &triangle);
-    } else {
-      const Bounds box = v.scene.box(number);
-      const Vec3 away = max(max(box.lower - v.p, v.p - box.upper), Vec3{0, 0, 0});
-      more = length(away) > v.radius || v.function(v.visitor, nullptr);
-    }
-    if (!more) args->query->radius = 0;
-    return !more;
+    const float from = args->query->radius;
+    const float to = v.function(v.visitor, v.scene.near_primitive(number, args->primID, v.p));
+    args->query->radius = std::min(from, to);
+    return to < from;
   };
   RTCPointQuery query{p.x, p.y, p.z, 0, radius};
   RTCPointQueryContext context;

@@ -1,9 +1,9 @@
 // clearance.h.
 //
 // A triangle can stop a feeler only if it passes through the feelers' height. It is then no nearer
-// than the line in which its plane does so. Triangles within the surface's own plane (up to the
-// lift, which feelers step over as well) tile it: where an edge has no second such triangle on its
-// other side the surface may end.
+// than its bounds, nor than the line in which its plane does so. Triangles within the surface's own
+// plane (up to the lift, which feelers step over as well) tile it: where an edge has no second such
+// triangle on its other side the surface may end.
 #include "estimators/clearance.h"
 
 #include <algorithm>
@@ -12,52 +12,59 @@ namespace octolux {
 
 namespace {
 
-constexpr int kMostTiles = 8;  // more are too many to compare
+constexpr int kMostShown = 32;  // more triangles cost more than feelers
+constexpr int kMostTiles = 8;   // more are too many to compare
 
 class Obstacles {
  public:
-  Obstacles(const FeelerQuery& query, float distance)
+  Obstacles(const FeelerQuery& query, float distance, float least)
       : origin_(query.point.position),
         n_(query.normal),
         edges_(query.edges),
         lift_(feeler_lift(query)),
-        distance_(distance) {}
+        least_(least),
+        free_(distance) {}
 
-  /// False once there is one.
-  bool visit(const NearTriangle* triangle) {
-    if (triangle == nullptr) {
-      met_ = true;
-      return false;
-    }
-    const Vec3 a = triangle->a - origin_, b = triangle->b - origin_, c = triangle->c - origin_;
-    if (is_beyond(a.x, b.x, c.x) || is_beyond(a.y, b.y, c.y) || is_beyond(a.z, b.z, c.z)) {
-      return true;  // the ray caster shows whole leaves
-    }
-    const float za = dot(a, n_), zb = dot(b, n_), zc = dot(c, n_);
+  /// How far there may be more that matters.
+  float visit(const NearPrimitive& near) {
+    if (++shown_ > kMostShown) return free_ = 0;
+    if (!near.triangle) return meet(near.distance);
+    const std::array<Vec3, 3> p{near.corners[0] - origin_, near.corners[1] - origin_,
+                                near.corners[2] - origin_};
+    const float nearest = distance_to_bounds(p);
+    if (nearest >= free_) return free_;
+    const float za = dot(p[0], n_), zb = dot(p[1], n_), zc = dot(p[2], n_);
     const float low = std::min(std::min(za, zb), zc), high = std::max(std::max(za, zb), zc);
     if (high > 0.5f * lift_ && low < 2 * lift_) {
-      met_ = met_ || distance_to_wall({a, b, c}) < distance_;
-    } else if (edges_ && high <= 0.5f * lift_ && low >= -0.5f * lift_) {
-      add_tile(triangle->id, {a, b, c});
+      return meet(std::max(nearest, distance_to_wall(p)));
     }
-    return !met_;
+    if (edges_ && high <= 0.5f * lift_ && low >= -0.5f * lift_) add_tile(near.id, p);
+    return free_;
   }
 
-  bool none() const {
-    if (met_ || !edges_) return !met_;
+  float free() const {
+    if (!edges_ || free_ == 0) return free_;
+    float free = free_;
     bool here = false;
     for (int i = 0; i < tile_count_; ++i) {
       here = here || contains_origin(tiles_[i]);
       for (int k = 0; k < 3; ++k) {
-        if (distance_to_edge(tiles_[i], k) < distance_ && !goes_on(i, k)) return false;
+        const float edge = distance_to_edge(tiles_[i], k);
+        if (edge < free && !goes_on(i, k)) free = edge;
       }
     }
-    return here;
+    return here && free >= least_ ? free : 0;
   }
 
  private:
-  bool is_beyond(float a, float b, float c) const {
-    return std::min(std::min(a, b), c) > distance_ || std::max(std::max(a, b), c) < -distance_;
+  float meet(float distance) {
+    if (distance < free_) free_ = distance >= least_ ? distance : 0;
+    return free_;
+  }
+
+  static float distance_to_bounds(const std::array<Vec3, 3>& p) {
+    const Vec3 lower = min(min(p[0], p[1]), p[2]), upper = max(max(p[0], p[1]), p[2]);
+    return length(max(max(lower, -upper), Vec3{0, 0, 0}));
   }
 
   struct Tile {
@@ -85,7 +92,7 @@ class Obstacles {
       if (tiles_[i].id == id) return;
     }
     if (tile_count_ == kMostTiles) {
-      met_ = true;
+      free_ = 0;
     } else {
       tiles_[tile_count_++] = {id, p};
     }
@@ -121,23 +128,23 @@ class Obstacles {
 
   Vec3 origin_, n_;
   bool edges_;
-  float lift_;
-  float distance_;
-  bool met_ = false;
-  int tile_count_ = 0;
+  float lift_, least_;
+  float free_;  // [m] nothing was met nearer; 0: given up
+  int shown_ = 0, tile_count_ = 0;
   std::array<Tile, kMostTiles> tiles_;  // relative to the query
 };
 
 }  // namespace
 
-bool is_clear(const RayCaster& caster, const FeelerQuery& query, float distance) {
+float free_distance(const RayCaster& caster, const FeelerQuery& query, float distance,
+                    float least) {
   constexpr float kRounding = 1 + 0x1p-16f;
-  Obstacles obstacles(query, distance * kRounding);
-  const auto visit = [](void* visitor, const NearTriangle* triangle) {
-    return static_cast<Obstacles*>(visitor)->visit(triangle);
+  Obstacles obstacles(query, distance * kRounding, least);
+  const auto visit = [](void* visitor, const NearPrimitive& near) {
+    return static_cast<Obstacles*>(visitor)->visit(near);
   };
   caster.visit_near(query.point.position, distance * kRounding, visit, &obstacles);
-  return obstacles.none();
+  return std::min(obstacles.free() / kRounding, distance);
 }
 
 }  // namespace octolux

@@ -13,6 +13,8 @@ namespace {
 /// Length of the first feelers, in units of the guess. Longer ones meet more and cost more in the
 /// open; shorter ones must more often be followed by others near walls.
 constexpr float kMargin = 1.5f;
+/// Below this part of their length the surface is hardly free as far as the photons reach.
+constexpr float kWorthLooking = 0.67f;
 
 /// The distance no two points of the scene exceed, or max_radius.
 float search_limit(const GatherPoint& at, const Bandwidth& bandwidth) {
@@ -44,21 +46,22 @@ RegionDisc find_in_region(const GatherPoint& at, const PhotonMap& map, const Ban
   PhotonQuery query = photon_query(at, bandwidth);
   FeelerQuery feelers = feeler_query(at, config.feelers);
   feelers.edges = config.edges;
-  query.rough_radius = kMargin;
-  float reach = limit;
-  for (;; reach *= 2) {
-    query.max_radius = std::min(reach, limit);
-    if (query.region != nullptr) result.region = FreeRegion(at.at.facing_normal());
-    query.region = nullptr;
-    std::span<const Neighbour> found = map.nearest(query, wanted, buffer);
-    reach = query.max_radius = buffer.max_radius;
-    query.rough_radius = 0;
+  float reach = kMargin * map.rough_distance(query.position, wanted);
+  if (!(reach > 0)) reach = limit;
+  for (bool obstructed = false;; reach *= 2) {
+    reach = std::min(reach, limit);
     if (!(reach > 0)) return result;
     feelers.length = reach / std::cos(kPi / static_cast<float>(config.feelers));
-    const float needed = found.size() == wanted ? std::sqrt(found.back().distance2) : reach;
-    if (!is_clear(*at.caster, feelers, needed)) {
+    std::span<const Neighbour> found;
+    if (!obstructed) {
+      query.max_radius = free_distance(*at.caster, feelers, reach, reach * kWorthLooking);
+      obstructed = query.max_radius < reach;
+      if (query.max_radius > 0) found = map.nearest(query, wanted, buffer);
+    }
+    if (obstructed && found.size() < wanted) {
       result.region = FreeRegion(*at.caster, feelers);
       query.region = &result.region.photons();
+      query.max_radius = std::min(reach, result.region.extent());
       found = map.nearest(query, wanted, buffer);
     }
     if (found.size() == wanted) {

@@ -2,8 +2,8 @@
 //
 //   build/bench_kernels
 //
-// Two situations: look-ups on a plane of photons, and the render of a room (Cornell), both on one
-// thread. Two measures: processor time, of which the kernels take turns and the median ratio
+// Situations: look-ups on a plane of photons, and renders of a room, of two, and of a house, all
+// on one thread. Two measures: processor time, of which the kernels take turns and the median ratio
 // counts, because machines are noisy; and instructions, which repeat exactly. Instructions come
 // from the processor's counter; where there is none (virtual machines), from valgrind's callgrind,
 // under which the program then runs itself with `--count SITUATION KERNEL N`. Valgrind does not
@@ -124,12 +124,12 @@ class Silent : public RenderObserver {
   bool pass_done(const Progress&, const Film&) override { return true; }
 };
 
-/// Two passes of 128x128 pixels at default settings; the second one shrinks the bandwidth.
+/// Two passes at default settings; the second one shrinks the bandwidth.
 class RoomRender {
  public:
-  RoomRender()
-      : scene_(load_scene(std::string(OCTOLUX_SOURCE_DIR) + "/scenes/cornell/cornell.xml",
-                          {{{"resx", "128"}, {"resy", "128"}}})) {}
+  RoomRender(const std::string& scene, const char* width, const char* height)
+      : scene_(load_scene(std::string(OCTOLUX_SOURCE_DIR) + "/scenes/" + scene,
+                          {{{"resx", width}, {"resy", height}}})) {}
 
   void operator()(const EstimatorConfig& estimator) const {
     RenderConfig config;
@@ -152,18 +152,23 @@ struct Situation {
 
 std::vector<Situation> make_situations() {
   const auto plane = std::make_shared<const PlaneLookUps>();
-  const auto room = std::make_shared<const RoomRender>();
+  const auto render_of = [](const std::string& name, const char* width, const char* height) {
+    const auto room = std::make_shared<const RoomRender>(name + "/" + name + ".xml", width, height);
+    return Situation{name,
+                     [room](const EstimatorConfig& config) -> Work {
+                       return [room, config] { (*room)(config); };
+                     },
+                     2, "pass"};
+  };
   return {{"plane",
            [plane](const EstimatorConfig& config) -> Work {
              std::shared_ptr<const Estimator> estimator = make_estimator(config);
              return [plane, estimator] { (*plane)(*estimator); };
            },
            PlaneLookUps::kQueries, "look-up"},
-          {"room",
-           [room](const EstimatorConfig& config) -> Work {
-             return [room, config] { (*room)(config); };
-           },
-           2, "pass"}};
+          render_of("cornell", "128", "128"),
+          render_of("two-rooms", "96", "64"),
+          render_of("house", "96", "64")};
 }
 
 EstimatorConfig config_of(const std::string& kernel, int neighbours) {
