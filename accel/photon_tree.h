@@ -56,6 +56,13 @@ class PhotonTree {
   static Photons coordinate_offset(Photons photons) {
     return photons + 2 * (photons & ~static_cast<int>(kBlockSize - 1));
   }
+  /// The block around a position; there must be one.
+  std::uint32_t leaf_at(Vec3 position) const {
+    const std::array<float, 3> p{position.x, position.y, position.z};
+    std::uint32_t node = 1;
+    while (node < leaf_count()) node = 2 * node + (p[nodes_[node].axis] >= nodes_[node].split);
+    return block_of(node);
+  }
   std::size_t memory() const {
     return blocks_.capacity() * sizeof(Block) + nodes_.capacity() * sizeof(Node);
   }

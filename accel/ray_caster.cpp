@@ -53,13 +53,22 @@ struct RayCaster::Impl : EmbreeScene {
   }
 
   NearPrimitive near_primitive(std::uint32_t number, std::uint32_t primitive, Vec3 p) const {
-    const std::uint64_t id = std::uint64_t{number} << 32 | primitive;
-    if (const auto found = corners(number, primitive)) return {id, *found};
     const auto [shape, instance] = find(number);
+    NearPrimitive near;
+    near.id = std::uint64_t{number} << 32 | primitive;
+    const auto* mesh = std::get_if<TriangleMesh>(&shape->geometry);
+    if (mesh != nullptr) {
+      for (int i = 0; i < 3; ++i) {
+        near.corners[i] = mesh->positions[mesh->triangles[primitive][i]];
+        if (instance) near.corners[i] = instance->to_world.point(near.corners[i]);
+      }
+      return near;
+    }
     Bounds box = octolux::bounds(*shape);
     if (instance) box = place(box, instance->to_world);
-    const Vec3 away = max(max(box.lower - p, p - box.upper), Vec3{0, 0, 0});
-    return {id, {}, false, length(away)};
+    near.triangle = false;
+    near.distance = length(max(max(box.lower - p, p - box.upper), Vec3{0, 0, 0}));
+    return near;
   }
 };
 
