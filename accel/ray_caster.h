@@ -79,8 +79,8 @@ class RayCaster {
   bool occluded(const Ray& ray) const;
   /// Closest hits of the active lanes.
   std::array<PacketHit, RayPacket::kSize> closest_hits(const RayPacket& packet) const;
-  /// Shows the primitives whose bounds come nearer to `p` than `radius` [m], and perhaps others;
-  /// one may come twice.
+  /// Shows the primitives that come nearer to `p` than `radius` [m], and others; one may come
+  /// twice.
   void visit_near(Vec3 p, float radius, NearFunction function, void* visitor) const;
   /// Corners of a primitive that is a triangle.
   std::optional<std::array<Vec3, 3>> triangle(std::uint32_t shape, std::uint32_t primitive) const;
