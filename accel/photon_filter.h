@@ -40,7 +40,7 @@ class PhotonFilter {
     return std::abs(side) > kRounding ? side > 0 : dot(wi(photon), normal_) > 0;
   }
 
-  static constexpr float kMinCosine = 0.7f;
+  static constexpr float kMinCosine = kFacingCosine;
 
   Vec3 normal_;
   int max_segments_;

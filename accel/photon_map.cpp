@@ -33,6 +33,7 @@ bool is_usable(const Photon& p) {
 struct Usable {
   std::vector<PhotonTree::Item> items;
   std::vector<PhotonPayload> payloads;
+  std::vector<FacingSet> facing;
 
   explicit Usable(std::span<const Photon> photons) {
     const auto count = static_cast<std::int64_t>(photons.size());
@@ -44,11 +45,13 @@ struct Usable {
     for (std::size_t c = 1; c < start.size(); ++c) start[c] += start[c - 1];
     items.resize(start.back());
     payloads.resize(start.back());
+    facing.resize(start.back());
     parallel_for_chunks(count, kChunk, [&](std::int64_t c, std::int64_t begin, std::int64_t end) {
       std::size_t next = start[c];
       for (std::int64_t i = begin; i < end; ++i) {
         if (!is_usable(photons[i])) continue;
         payloads[next] = pack(photons[i]);
+        facing[next] = octolux::facing(normal(payloads[next]));
         items[next] = {photons[i].position, static_cast<std::uint32_t>(next)};
         ++next;
       }
@@ -97,6 +100,11 @@ struct Inside {
 float squash_factor(const PhotonQuery& query) {
   OCTOLUX_CHECK(query.squash >= 1);
   return query.squash * query.squash - 1;
+}
+
+FacingSet wanted_facing(const PhotonQuery& query) {
+  const FacingSet front = facing_near(query.normal);
+  return query.both_sides ? front | facing_near(-query.normal) : front;
 }
 
 std::size_t count_below(const Neighbour* items, std::size_t count, float limit) {
@@ -151,7 +159,7 @@ PhotonMap::PhotonMap(std::vector<Photon> photons) {
   Usable usable(photons);
   rejected_ = photons.size() - usable.items.size();
   photons = {};
-  tree_ = PhotonTree(usable.items);
+  tree_ = PhotonTree(usable.items, usable.facing);
   payloads_.resize(usable.items.size());
   const auto count = static_cast<std::int64_t>(usable.items.size());
   parallel_for_chunks(count, kChunk, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
@@ -211,7 +219,7 @@ std::span<const Neighbour> PhotonMap::nearest_in(Region region, const PhotonQuer
   Neighbour* items = buffer.items.data();
   const float squash = squash_factor(query);
   PhotonFilter counts(query);
-  PhotonTreeWalk walk(tree_, query.position);
+  PhotonTreeWalk walk(tree_, query.position, wanted_facing(query));
   float limit = query.max_radius * query.max_radius;
   std::size_t count = 0;
   for (;;) {
@@ -244,7 +252,7 @@ std::span<const Neighbour> PhotonMap::within_in(Region region, const PhotonQuery
   const float squash = squash_factor(query);
   const float limit = query.max_radius * query.max_radius;
   PhotonFilter counts(query);
-  PhotonTreeWalk walk(tree_, query.position);
+  PhotonTreeWalk walk(tree_, query.position, wanted_facing(query));
   buffer.items.clear();
   for (;;) {
     const std::uint32_t b = walk.next<PhotonTreeWalk::Order::left_to_right>(limit);

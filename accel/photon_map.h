@@ -2,7 +2,7 @@
 // over the same photons would answer, ties included. Which photons count is decided inside the
 // query (accel/photon_filter.h), so k of them really are k that count.
 //
-// Layout: accel/photon_tree.h, payloads apart in the same order; 28.5 bytes a photon. Immutable
+// Layout: accel/photon_tree.h, payloads apart in the same order; 29 bytes a photon. Immutable
 // after construction, so thread-safe. The same photons in the same order give the same map whatever
 // the number of threads.
 #pragma once

@@ -46,15 +46,19 @@ std::uint32_t left_leaves(std::uint32_t leaves) {
 
 }  // namespace
 
-PhotonTree::PhotonTree(std::span<Item> items) {
+PhotonTree::PhotonTree(std::span<Item> items, std::span<const FacingSet> facing) {
   const std::size_t leaves = (items.size() + kBlockSize - 1) / kBlockSize;
   OCTOLUX_CHECK(leaves < kMaxLeaves);
   if (leaves == 0) return;
   nodes_.resize(leaves);
   blocks_.resize(leaves);
+  block_facing_.resize(leaves);
   last_level_ = std::bit_floor(static_cast<std::uint32_t>(2 * leaves - 1));
   split(items, 1, leaf_count());
-  fill_blocks(items);
+  fill_blocks(items, facing);
+  for (std::uint32_t node = leaf_count() - 1; node > 0; --node) {
+    nodes_[node].facing = facing_of(2 * node) | facing_of(2 * node + 1);
+  }
 }
 
 void PhotonTree::split(std::span<Item> items, std::uint32_t node, std::uint32_t leaves) {
@@ -65,7 +69,8 @@ void PhotonTree::split(std::span<Item> items, std::uint32_t node, std::uint32_t 
   const float plane = axis == 0   ? select<&Vec3::x>(items, count)
                       : axis == 1 ? select<&Vec3::y>(items, count)
                                   : select<&Vec3::z>(items, count);
-  nodes_[node] = {plane, axis};
+  nodes_[node].split = plane;
+  nodes_[node].axis = axis;
   const auto split_left = [&] { split(items.first(count), 2 * node, left); };
   const auto split_right = [&] { split(items.subspan(count), 2 * node + 1, leaves - left); };
   if (items.size() > kParallelItems) {
@@ -76,7 +81,7 @@ void PhotonTree::split(std::span<Item> items, std::uint32_t node, std::uint32_t 
   }
 }
 
-void PhotonTree::fill_blocks(std::span<const Item> items) {
+void PhotonTree::fill_blocks(std::span<const Item> items, std::span<const FacingSet> facing) {
   parallel_for_chunks(leaf_count(), 1024, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t b = begin; b < end; ++b) {
       for (std::uint32_t lane = 0; lane < kBlockSize; ++lane) {
@@ -85,6 +90,7 @@ void PhotonTree::fill_blocks(std::span<const Item> items) {
         blocks_[b].x[lane] = p.x;
         blocks_[b].y[lane] = p.y;
         blocks_[b].z[lane] = p.z;
+        if (i < items.size()) block_facing_[b] |= facing[items[i].index];
       }
     }
   });

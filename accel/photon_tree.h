@@ -3,8 +3,10 @@
 // Leaves hold kBlockSize photons as a structure of arrays, for SIMD. The tree over them is complete
 // and implicit, as a binary heap: node i has the children 2 i and 2 i + 1; with m leaves, nodes 1
 // to m - 1 are inner and m to 2 m - 1 are leaves. All blocks are full except the last one. 12 bytes
-// a photon and half a byte for the tree. Queries measure cells as in Arya & Mount, "Algorithms for
+// a photon and one for the tree. Queries measure cells as in Arya & Mount, "Algorithms for
 // Fast Vector Quantization" (DCC 1993): a cell's distance grows by one offset per split plane.
+//
+// Each node knows which ways the surfaces of its photons face (accel/facing.h).
 //
 // Immutable after construction, so thread-safe; the same for every number of threads, because
 // splits follow a total order (coordinate, then index).
@@ -16,6 +18,7 @@
 #include <span>
 #include <vector>
 
+#include "accel/facing.h"
 #include "core/constants.h"
 #include "core/vec.h"
 
@@ -32,6 +35,7 @@ class PhotonTree {
   struct Node {
     float split = 0;         // left: coordinate <= split, right: coordinate >= split
     std::uint32_t axis = 0;  // 0, 1, 2
+    FacingSet facing = 0;    // of the photons below
   };
   struct Item {
     Vec3 position;
@@ -40,8 +44,8 @@ class PhotonTree {
 
   PhotonTree() = default;
   /// Sorts `items` into the tree's order: item i is lane i % kBlockSize of block i / kBlockSize.
-  /// Positions must be finite.
-  explicit PhotonTree(std::span<Item> items);
+  /// Positions must be finite. `facing` is by the caller's index.
+  PhotonTree(std::span<Item> items, std::span<const FacingSet> facing);
 
   const Block& block(std::uint32_t index) const { return blocks_[index]; }
   Vec3 position(std::uint32_t photon) const {
@@ -64,7 +68,8 @@ class PhotonTree {
     return block_of(node);
   }
   std::size_t memory() const {
-    return blocks_.capacity() * sizeof(Block) + nodes_.capacity() * sizeof(Node);
+    return blocks_.capacity() * sizeof(Block) + nodes_.capacity() * sizeof(Node) +
+           block_facing_.capacity() * sizeof(FacingSet);
   }
 
  private:
@@ -76,10 +81,14 @@ class PhotonTree {
     return node - last_level_ + (node < last_level_ ? leaf_count() : 0);
   }
   void split(std::span<Item> items, std::uint32_t node, std::uint32_t leaves);
-  void fill_blocks(std::span<const Item> items);
+  void fill_blocks(std::span<const Item> items, std::span<const FacingSet> facing);
+  FacingSet facing_of(std::uint32_t node) const {
+    return node < leaf_count() ? nodes_[node].facing : block_facing_[block_of(node)];
+  }
 
   std::vector<Node> nodes_;  // [0] is unused
   std::vector<Block> blocks_;
+  std::vector<FacingSet> block_facing_;
   std::uint32_t last_level_ = 0;  // first node of the heap's deepest level
 };
 
@@ -91,8 +100,9 @@ class PhotonTreeWalk {
   enum class Order { nearest_first, left_to_right };
   static constexpr std::uint32_t kEnd = ~0u;
 
-  PhotonTreeWalk(const PhotonTree& tree, Vec3 position)
-      : tree_(tree), position_{position.x, position.y, position.z} {
+  /// Passes over branches with no photon on a surface that faces one of these ways.
+  PhotonTreeWalk(const PhotonTree& tree, Vec3 position, FacingSet facing = kAnyFacing)
+      : tree_(tree), position_{position.x, position.y, position.z}, facing_(facing) {
     if (tree.leaf_count() > 0) stack_[size_++] = {1, 0, {0, 0, 0}};
   }
 
@@ -102,8 +112,12 @@ class PhotonTreeWalk {
     while (size_ > 0) {
       Cell cell = stack_[--size_];
       if (!(cell.distance2 < limit)) continue;
-      while (cell.node < tree_.leaf_count()) descend<order>(cell, limit);
-      if (cell.distance2 < limit) return tree_.block_of(cell.node);
+      while (cell.node < tree_.leaf_count() && (tree_.nodes_[cell.node].facing & facing_) != 0) {
+        descend<order>(cell, limit);
+      }
+      if (cell.node < tree_.leaf_count() || !(cell.distance2 < limit)) continue;
+      const std::uint32_t block = tree_.block_of(cell.node);
+      if ((tree_.block_facing_[block] & facing_) != 0) return block;
     }
     return kEnd;
   }
@@ -135,6 +149,7 @@ class PhotonTreeWalk {
 
   const PhotonTree& tree_;
   std::array<float, 3> position_;
+  FacingSet facing_;
   std::array<Cell, kStackSize> stack_;  // not initialised, except for what was pushed
   int size_ = 0;
 };

@@ -1,4 +1,4 @@
-// distribution.h: inversion by binary search over the cumulative sum.
+// distribution.h: inversion by indexed search over the cumulative sum.
 #include "core/distribution.h"
 
 #include <algorithm>
@@ -19,13 +19,21 @@ Distribution1D::Distribution1D(std::span<const double> weights) : cdf_(weights.s
   // Division, not multiplication by 1 / total: all sums equal to the total become exactly 1, so a
   // tail of zero weights is out of reach of any u < 1.
   for (double& c : cdf_) c /= total_;
+  start_.reserve(weights.size());
+  std::uint32_t i = 0;
+  for (std::size_t k = 0; k < weights.size(); ++k) {
+    const double u = static_cast<double>(k) / static_cast<double>(weights.size());
+    while (!(cdf_[i + 1] > u)) ++i;
+    start_.push_back(i);
+  }
 }
 
 Distribution1D::Sample Distribution1D::sample(float u) const {
   if (total_ == 0) return {};
   // The first i with cdf[i + 1] > u: then cdf[i] <= u, so the chosen weight is positive.
-  const auto above = std::upper_bound(cdf_.begin() + 1, cdf_.end() - 1, static_cast<double>(u));
-  const auto i = above - (cdf_.begin() + 1);
+  std::size_t i = start_[static_cast<std::size_t>(u * static_cast<double>(start_.size()))];
+  while (cdf_[i] > u) --i;  // u times n was rounded up to the next cell
+  while (!(cdf_[i + 1] > u)) ++i;
   const double width = cdf_[i + 1] - cdf_[i];
   const auto rest = static_cast<float>((u - cdf_[i]) / width);
   return {static_cast<int>(i), static_cast<float>(width), std::min(rest, kOneMinusEpsilon)};

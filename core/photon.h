@@ -17,6 +17,9 @@ struct Photon {
   Vec3 normal;       // geometric normal on the side it arrived from: dot(normal, wi) > 0
   Rgb flux;          // [W], already divided by the number of emitted paths
   int segments = 1;  // path segments from the light to here, 1 to 255
+  // Not kept in maps:
+  float error = 0;  // [m] bound on the error of the position
+  Vec3 ns{};        // shading normal on the side of `normal`
 };
 
 /// Everything but the position. flux: three 18-bit mantissas with a shared exponent (relative

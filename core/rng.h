@@ -10,7 +10,7 @@
 namespace octolux {
 
 /// What a sequence is used for; part of its key, so that two uses never share numbers.
-enum class Stream : std::uint64_t { eye = 1, global_photon = 2, caustic_photon = 3, test = 4 };
+enum class Stream : std::uint64_t { eye = 1, global_photon = 2, caustic_photon = 3, test = 4, record = 5 };
 
 /// splitmix64 finaliser (Steele, Lea & Flood 2014): a bijection of 64 bits with full avalanche.
 constexpr std::uint64_t hash64(std::uint64_t x) {

@@ -33,6 +33,9 @@ class Scattering {
   /// Geometric normal on wo's side.
   Vec3 facing_normal() const { return wo_ng_ < 0 ? -point_.ng : point_.ng; }
 
+  /// Shading normal on the same side of the surface.
+  Vec3 facing_shading_normal() const { return wo_ng_ < 0 ? -point_.ns : point_.ns; }
+
   /// f(wo, wi) [sr^-1] without cosine; wi in world space.
   Rgb f(Vec3 wi, Lobes lobes) const {
     const Vec3 local = frame_.to_local(wi);
@@ -69,7 +72,10 @@ class Scattering {
   Rgb pass_through() const { return bsdf_.pass_through(point_, wo_local_); }
   /// Empty also where the normals differ: then directions matter (f_flux).
   std::optional<Rgb> lambertian() const {
-    if (!(point_.ns == point_.ng)) return std::nullopt;
+    return point_.ns == point_.ng ? diffuse_reflectance() : std::nullopt;
+  }
+  /// Bsdf::lambertian: what leaves is this, over pi, times the irradiance of the shading normal.
+  std::optional<Rgb> diffuse_reflectance() const {
     return wo_ng_ * wo_local_.z > 0 ? bsdf_.lambertian(point_, wo_local_) : std::nullopt;
   }
 

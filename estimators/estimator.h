@@ -58,6 +58,8 @@ class Estimator {
   virtual ~Estimator() = default;
   virtual Estimate estimate(const GatherPoint& at, const PhotonMap& map,
                             const Bandwidth& bandwidth) const = 0;
+  /// Does it take only photons that the point sees?
+  virtual bool sees_geometry() const { return false; }
 };
 
 /// The query every kernel starts from: facing normal, which sides count, path length.

@@ -51,6 +51,8 @@ class FeelerFilter final : public Estimator {
     return config_.correction ? corrected(at, map, bandwidth) : published(at, map, bandwidth);
   }
 
+  bool sees_geometry() const override { return true; }
+
  private:
   Estimate corrected(const GatherPoint& at, const PhotonMap& map,
                      const Bandwidth& bandwidth) const {

@@ -17,6 +17,7 @@ class RadianceMap {
 
   bool empty() const { return photons_.size() == 0; }
   const PhotonMap& photons() const { return photons_; }
+  const Bandwidth& bandwidth() const { return bandwidth_; }
 
   /// Radiance [W m^-2 sr^-1] leaving the point through its smooth lobes.
   Rgb radiance(const GatherPoint& at) const {

@@ -45,6 +45,8 @@ class Region final : public Estimator {
     return estimate;
   }
 
+  bool sees_geometry() const override { return true; }
+
  private:
   /// Integral of K over R by that over the whole disc.
   static double share_of_disc(const RegionDisc& found) {

@@ -34,6 +34,7 @@ void check(const RenderConfig& config) {
   require(config.eye.light_samples >= 1, "eye.light_samples must be at least 1");
   require(config.eye.samples_per_pass >= 1, "eye.samples_per_pass must be at least 1");
   require(config.eye.retrace >= 0, "eye.retrace must be 0 or more");
+  require(config.eye.reuse >= 0 && config.eye.reuse <= 1, "eye.reuse must be in [0, 1]");
   require(config.stop.passes >= 0, "stop.passes must be 0 or more");
   require(config.stop.samples >= 0, "stop.samples must be 0 or more");
   require(config.stop.seconds >= 0, "stop.seconds must be 0 or more");

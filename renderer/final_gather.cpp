@@ -50,14 +50,14 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
   if (maps_.caustics_mapped) out.caustic = maps_.caustic.radiance(point);
 
   Level next = level;
-  GatherGuide guide;
+  Surroundings own;
+  const Surroundings* around = &own;
   if (next.read_distance < 0) {
-    const auto [photons, bandwidth] =
-        maps_.global.neighbourhood(point, config_.estimator.neighbours);
-    next.read_distance = static_cast<float>(config_.eye.retrace) * bandwidth;
-    guide = GatherGuide(maps_.global.photons(), photons);
+    around = maps_.records.surroundings(point);
+    if (!around) around = &(own = survey(maps_.global, point, config_.estimator.neighbours));
+    next.read_distance = static_cast<float>(config_.eye.retrace) * around->bandwidth;
   }
-  const GatherDirections directions(at, guide, level.rays, tracer.rng);
+  const GatherDirections directions(at, around->guide, level.rays, tracer.rng);
   for (int i = 0; i < level.rays; ++i) {
     const std::optional<GatherDirection> chosen = directions.draw(i, tracer.rng);
     if (!chosen) continue;
@@ -65,6 +65,17 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
     out.indirect += chosen->weight * follow(tracer, at.spawn(chosen->wi), next, arrival);
   }
   return out;
+}
+
+/// Radiance leaving `at`, where a gather ray ended.
+Rgb FinalGather::look_up(Tracer& tracer, const Scattering& at, int segments) const {
+  const GatherPoint point = gather_point(tracer, at, segments);
+  if (const std::optional<Rgb> reflectance = at.diffuse_reflectance()) {
+    if (const std::optional<Rgb> white = maps_.records.white_radiance(point)) {
+      return *reflectance * *white;
+    }
+  }
+  return maps_.global.radiance(point);
 }
 
 /// Radiance arriving along `ray`, through specular lobes S*, from the first smooth lobes met, and
@@ -92,7 +103,7 @@ Rgb FinalGather::follow(Tracer& tracer, Ray ray, const Level& level, Arrival arr
         const Level next{segments, 1, level.read_distance, level.retraces + 1};
         total += beta * radiance(tracer, at, next).total();
       } else {
-        total += beta * maps_.global.radiance(gather_point(tracer, at, segments));
+        total += beta * look_up(tracer, at, segments);
       }
     }
     if (!hit->bsdf->has(Lobes::specular)) break;

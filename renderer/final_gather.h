@@ -7,6 +7,7 @@
 #include "estimators/radiance_map.h"
 #include "renderer/config.h"
 #include "renderer/direct_light.h"
+#include "renderer/gather_records.h"
 
 namespace octolux {
 
@@ -14,6 +15,7 @@ namespace octolux {
 struct PhotonMaps {
   RadianceMap global;
   RadianceMap caustic;
+  GatherRecords records;         // of the global map; may be none
   bool caustics_mapped = false;  // is L S+ D read from the caustic map (or traced by gather rays)?
 };
 
@@ -41,6 +43,7 @@ class FinalGather {
   };
   SplitRadiance radiance(Tracer& tracer, const Scattering& at, const Level& level) const;
   Rgb follow(Tracer& tracer, Ray ray, const Level& level, Arrival arrival) const;
+  Rgb look_up(Tracer& tracer, const Scattering& at, int segments) const;
   GatherPoint gather_point(Tracer& tracer, const Scattering& at, int segments) const;
   int remaining(int segments) const;
 

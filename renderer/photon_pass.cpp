@@ -19,6 +19,11 @@ struct Flight {
   int segments = 0;  // behind it
 };
 
+Stream stream_of(PhotonKind kind) {
+  if (kind == PhotonKind::global) return Stream::global_photon;
+  return kind == PhotonKind::caustic ? Stream::caustic_photon : Stream::record;
+}
+
 /// Starts path `index`; the light is chosen by power, stratified over the pass, so that all photons
 /// carry about the same flux and every lamp gets its share.
 Flight emit(const LightSampler& lights, Rng& rng, std::int64_t index, std::int64_t count) {
@@ -49,14 +54,15 @@ bool scatter(Flight& flight, const Scattering& at, Lobes lobes, Rng& rng) {
 
 void trace_photon(Tracer& tracer, Flight flight, PhotonKind kind, int max_segments,
                   std::vector<Photon>& photons) {
-  const Lobes followed = kind == PhotonKind::global ? Lobes::all : Lobes::specular;
+  const bool caustic = kind == PhotonKind::caustic;
+  const Lobes followed = caustic ? Lobes::specular : Lobes::all;
   for (int bounces = 0; flight.segments < max_segments; ++bounces) {
     const std::optional<SurfaceHit> hit = tracer.next(flight.ray, flight.flux, flight.segments);
     if (!hit || flight.segments > max_segments) return;
     const Scattering at(hit->point, *hit->bsdf, -flight.ray.direction, Carried::flux);
-    if (hit->bsdf->has(Lobes::smooth) && (kind == PhotonKind::global || bounces > 0)) {
-      photons.push_back(
-          {hit->point.position, at.wo(), at.facing_normal(), flight.flux, flight.segments});
+    if (hit->bsdf->has(Lobes::smooth) && (!caustic || bounces > 0)) {
+      photons.push_back({hit->point.position, at.wo(), at.facing_normal(), flight.flux,
+                         flight.segments, hit->point.error, at.facing_shading_normal()});
     }
     if (!hit->bsdf->has(followed) || !scatter(flight, at, followed, tracer.rng)) return;
   }
@@ -70,7 +76,7 @@ PhotonPass trace_photons(const Scene& scene, const LightSampler& lights, PhotonK
   if (count == 0 || lights.empty()) return result;
   if (kind == PhotonKind::caustic && !scene.any_specular) return result;
 
-  const Stream stream = kind == PhotonKind::global ? Stream::global_photon : Stream::caustic_photon;
+  const Stream stream = stream_of(kind);
   // A photon is seen over at least one more segment.
   const int max_segments = scene.max_depth < 0 ? 1 << 20 : scene.max_depth - 1;
   const auto chunks = static_cast<std::size_t>((count + kChunk - 1) / kChunk);

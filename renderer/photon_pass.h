@@ -2,6 +2,7 @@
 // One walk serves both maps; they differ in what they follow and keep (Heckbert's notation):
 //   global   L (S|D)* D   follows every lobe, keeps a photon at every D
 //   caustic  L S+ D       follows specular lobes only, keeps a photon where such a chain ends
+// Records of irradiance lie where global photons of other paths land.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,7 @@
 
 namespace octolux {
 
-enum class PhotonKind { global, caustic };
+enum class PhotonKind { global, caustic, record };
 
 /// What one photon pass did.
 struct PhotonPass {

@@ -62,11 +62,41 @@ RadianceMap make_map(const Job& job, PhotonKind kind, PassKey key, Progress& pro
   return RadianceMap(std::move(map), *job.estimator, bandwidth);
 }
 
+/// Photon paths that make sites of records: as many as put about one site into the reach of each.
+std::int64_t record_paths(const RenderConfig& config, const Bandwidth& bandwidth) {
+  constexpr double kShare = 0.2;  // of the photons, where the bandwidth is not yet shrunk
+  const double share = std::min(1.0, kShare / (bandwidth.shrink * bandwidth.shrink));
+  return static_cast<std::int64_t>(share * static_cast<double>(config.photons.global));
+}
+
+/// Records of what gather rays will find in `map`.
+GatherRecords make_records(const Job& job, const RadianceMap& map, PassKey key,
+                           Progress& progress) {
+  const RenderConfig& config = job.config;
+  if (!config.eye.gather || !(config.eye.reuse > 0)) return {};
+  Stopwatch watch;
+  const PhotonPass traced = trace_photons(job.scene, job.lights, PhotonKind::record,
+                                          record_paths(config, map.bandwidth()), key);
+  progress.rays += traced.rays;
+  progress.timing.photons += watch.lap();
+  RecordConfig records;
+  records.neighbours = config.estimator.neighbours;
+  if (job.scene.max_depth >= 0) records.max_segments = std::clamp(job.scene.max_depth - 2, 0, 255);
+  records.must_see = job.estimator->sees_geometry();
+  records.turn_key = hash64(hash64(key.seed) ^ key.pass);
+  GatherRecords made(
+      RecordSites(traced.photons, map.bandwidth(), records.neighbours, config.eye.reuse), map,
+      *job.scene.caster, records);
+  progress.timing.maps += watch.lap();
+  return made;
+}
+
 PixelPass photon_mapping_pass(const Job& job, PassKey key, Progress& progress) {
   progress.photon_bytes = 0;
   PhotonMaps maps;
   maps.caustics_mapped = job.config.photons.caustic > 0;
   maps.global = make_map(job, PhotonKind::global, key, progress);
+  maps.records = make_records(job, maps.global, key, progress);
   if (job.config.eye.gather) maps.caustic = make_map(job, PhotonKind::caustic, key, progress);
 
   Stopwatch watch;

@@ -1,0 +1,78 @@
+// gather_records.h.
+#include "renderer/gather_records.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/bsdf_makers.h"
+#include "core/rng.h"
+
+namespace octolux {
+
+Surroundings survey(const RadianceMap& map, const GatherPoint& at, int neighbours) {
+  const auto [photons, bandwidth] = map.neighbourhood(at, neighbours);
+  return {GatherGuide(map.photons(), photons), bandwidth};
+}
+
+GatherRecords::GatherRecords(RecordSites sites, const RadianceMap& map, const RayCaster& caster,
+                             const RecordConfig& config)
+    : map_(&map),
+      caster_(&caster),
+      config_(config),
+      white_(make_diffuse(Color(Rgb(1)))),
+      sites_(std::move(sites)),
+      white_radiance_(sites_.size() * kDepths),
+      surroundings_(sites_.size()) {
+  for (std::uint32_t i = 0; i < map.photons().size(); ++i) {
+    longest_ = std::max(longest_, segments(map.photons().payload(i)));
+  }
+}
+
+/// Calls `use` with the record as a gather point.
+template <class Use>
+auto GatherRecords::at_record(std::uint32_t record, int max_segments, const Use& use) const {
+  const SurfacePoint point = sites_.point(record);
+  const Scattering at(point, *white_, point.ng, Carried::radiance);
+  const float turn = static_cast<float>(hash64(config_.turn_key ^ record) >> 40) * 0x1p-24f;
+  return use(GatherPoint{at, max_segments, caster_, turn});
+}
+
+/// Which of a record's values counts photons up to `max_segments`; kDepths or more if none does.
+int GatherRecords::depth_index(int max_segments) const {
+  return std::min(config_.max_segments, longest_) - std::min(max_segments, longest_);
+}
+
+bool GatherRecords::sees(const SurfacePoint& from, Vec3 normal, const SurfacePoint& to) const {
+  return !caster_->occluded(
+      connecting_ray({from.position, normal, from.error}, {to.position, to.ng, to.error}));
+}
+
+std::optional<Rgb> GatherRecords::white_radiance(const GatherPoint& at) const {
+  if (sites_.size() == 0) return std::nullopt;
+  const int depth = depth_index(at.max_segments);
+  if (depth < 0 || depth >= kDepths) return std::nullopt;
+  const PhotonQuery query = photon_query(at, map_->bandwidth());
+  const std::optional<std::uint32_t> record = sites_.find(query, at.at.facing_shading_normal());
+  if (!record) return std::nullopt;
+  if (config_.must_see && !sees(at.at.point(), query.normal, sites_.point(*record))) {
+    return std::nullopt;
+  }
+  return white_radiance_.get(std::size_t{*record} * kDepths + depth, [&] {
+    return at_record(*record, config_.max_segments - depth,
+                     [&](const GatherPoint& there) { return map_->radiance(there); });
+  });
+}
+
+const Surroundings* GatherRecords::surroundings(const GatherPoint& at) const {
+  if (sites_.size() == 0 || at.at.bsdf().smooth_transmission()) return nullptr;
+  const std::optional<std::uint32_t> record =
+      sites_.find(photon_query(at, map_->bandwidth()), at.at.facing_shading_normal());
+  if (!record) return nullptr;
+  return &surroundings_.get(*record, [&] {
+    return at_record(
+        *record, std::min(255, config_.max_segments + 1),
+        [&](const GatherPoint& there) { return survey(*map_, there, config_.neighbours); });
+  });
+}
+
+}  // namespace octolux

@@ -1,0 +1,69 @@
+// What gather rays share within a pass (Christensen, "Faster photon map global illumination",
+// Journal of Graphics Tools 4(3), 1999): of the many that end near a record (record_sites.h) only
+// the first pays for a look-up of irradiance, and of the points they leave from only the first
+// pays for a guide. Both are made when they are asked for first, so places nobody looks at cost
+// nothing.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "core/bsdf.h"
+#include "estimators/radiance_map.h"
+#include "renderer/gather_guide.h"
+#include "renderer/lazy.h"
+#include "renderer/record_sites.h"
+
+namespace octolux {
+
+/// What the photons around a point tell a final gather there.
+struct Surroundings {
+  GatherGuide guide;
+  float bandwidth = 0;  // [m] of look-ups there
+};
+/// From the `neighbours` photons nearest to the point.
+Surroundings survey(const RadianceMap& map, const GatherPoint& at, int neighbours);
+
+/// What all records of a pass have in common.
+struct RecordConfig {
+  int neighbours = 20;         // of the bandwidth
+  int max_segments = 255;      // of photons that may count where gather rays from the eye end
+  bool must_see = false;       // does a record serve only points it sees?
+  std::uint64_t turn_key = 0;  // of the records' random turns (GatherPoint::turn)
+};
+
+/// Thread-safe: a record holds the same whoever makes it.
+class GatherRecords {
+ public:
+  GatherRecords() = default;
+  /// The map and the caster must outlive the records and stay where they are.
+  GatherRecords(RecordSites sites, const RadianceMap& map, const RayCaster& caster,
+                const RecordConfig& config);
+
+  /// Radiance [W m^-2 sr^-1] that a white Lambertian surface would send out at the point; empty if
+  /// no record serves it.
+  std::optional<Rgb> white_radiance(const GatherPoint& at) const;
+  /// What a record near the point found around itself; nullptr if none serves it.
+  const Surroundings* surroundings(const GatherPoint& at) const;
+
+ private:
+  /// Where paths may have few segments, irradiance depends on how many are left to the photons.
+  static constexpr int kDepths = 4;
+
+  int depth_index(int max_segments) const;
+  bool sees(const SurfacePoint& from, Vec3 normal, const SurfacePoint& to) const;
+  template <class Use>
+  auto at_record(std::uint32_t record, int max_segments, const Use& use) const;
+
+  const RadianceMap* map_ = nullptr;
+  const RayCaster* caster_ = nullptr;
+  RecordConfig config_;
+  int longest_ = 0;  // segments of any photon in the map
+  std::unique_ptr<Bsdf> white_;
+  RecordSites sites_;
+  LazyValues<Rgb> white_radiance_;  // kDepths per record
+  LazyObjects<Surroundings> surroundings_;
+};
+
+}  // namespace octolux

@@ -1,0 +1,113 @@
+// record_sites.h.
+#include "renderer/record_sites.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "core/constants.h"
+#include "core/vec3d.h"
+
+namespace octolux {
+
+namespace {
+
+constexpr std::uint32_t kNone = PhotonTreeWalk::kEnd;
+constexpr std::uint32_t kBlockSize = PhotonTree::kBlockSize;
+/// Between the normals of a record and of a point it serves, geometric and shading ones each.
+constexpr float kMinCosine = 0.95f;
+
+/// Area [m^2] per site in a block: two random points of a square are at a mean squared distance of
+/// a third of its area, which is twice their mean squared distance from the middle.
+float area_per_site(const PhotonTree::Block& block) {
+  Vec3d sum{};
+  double sum2 = 0, count = 0;
+  const Vec3 first{block.x[0], block.y[0], block.z[0]};
+  for (std::uint32_t i = 0; i < kBlockSize; ++i) {
+    if (!(block.x[i] < kInfinity)) continue;
+    const Vec3d p(Vec3{block.x[i], block.y[i], block.z[i]} - first);
+    sum = sum + p;
+    sum2 += dot(p, p);
+    ++count;
+  }
+  if (count < 2) return 0;
+  const double variance = (sum2 - dot(sum, sum) / count) / (count - 1);
+  return static_cast<float>(3 * 2 * variance / count);
+}
+
+/// Squared distances of a block's sites in the query's squashed metric.
+void distances2(const PhotonTree::Block& block, const PhotonQuery& query, float* out) {
+  const Vec3 p = query.position;
+  const Vec3 n = query.normal;
+  const float squash = query.squash * query.squash - 1;
+  for (std::uint32_t i = 0; i < kBlockSize; ++i) {
+    const float dx = block.x[i] - p.x;
+    const float dy = block.y[i] - p.y;
+    const float dz = block.z[i] - p.z;
+    const float along = dx * n.x + dy * n.y + dz * n.z;
+    out[i] = dx * dx + dy * dy + dz * dz + squash * (along * along);
+  }
+}
+
+}  // namespace
+
+RecordSites::RecordSites(const std::vector<Photon>& photons, const Bandwidth& bandwidth,
+                         int neighbours, double reuse) {
+  std::vector<PhotonTree::Item> items(photons.size());
+  std::vector<FacingSet> facing(photons.size());
+  for (std::size_t i = 0; i < photons.size(); ++i) {
+    items[i] = {photons[i].position, static_cast<std::uint32_t>(i)};
+    facing[i] = octolux::facing(photons[i].normal);
+  }
+  tree_ = PhotonTree(items, facing);
+  sites_.reserve(photons.size());
+  for (const PhotonTree::Item& item : items) {
+    const Photon& photon = photons[item.index];
+    sites_.push_back({photon.normal, photon.ns, photon.error});
+  }
+  const float share = static_cast<float>(reuse) * bandwidth.shrink;
+  max_reach2_ = share * share * bandwidth.max_radius * bandwidth.max_radius;
+  const auto blocks = static_cast<std::uint32_t>((photons.size() + kBlockSize - 1) / kBlockSize);
+  for (std::uint32_t b = 0; b < blocks; ++b) {
+    const float disc = area_per_site(tree_.block(b)) * static_cast<float>(neighbours);
+    reach2_.push_back(std::min(max_reach2_, share * share * disc * kInvPi));
+  }
+}
+
+std::optional<std::uint32_t> RecordSites::find(const PhotonQuery& query,
+                                               Vec3 shading_normal) const {
+  std::uint32_t best = kNone;
+  float limit = max_reach2_;
+  PhotonTreeWalk walk(tree_, query.position, facing_near(query.normal));
+  for (;;) {
+    const std::uint32_t b = walk.next<PhotonTreeWalk::Order::nearest_first>(limit);
+    if (b == kNone) break;
+    alignas(64) float distance2[kBlockSize];
+    distances2(tree_.block(b), query, distance2);
+    std::uint32_t near = 0;
+    for (std::uint32_t i = 0; i < kBlockSize; ++i) {
+      near |= static_cast<std::uint32_t>(distance2[i] < limit) << i;
+    }
+    for (; near != 0; near &= near - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(near));
+      const std::uint32_t site = b * kBlockSize + lane;
+      if (!(distance2[lane] < limit)) continue;
+      if (!(dot(sites_[site].ng, query.normal) > kMinCosine)) continue;
+      if (!(dot(sites_[site].ns, shading_normal) > kMinCosine)) continue;
+      limit = distance2[lane];
+      best = site;
+    }
+  }
+  if (best == kNone || !(limit < reach2_[best / kBlockSize])) return std::nullopt;
+  return best;
+}
+
+SurfacePoint RecordSites::point(std::uint32_t record) const {
+  SurfacePoint point;
+  point.position = tree_.position(record);
+  point.ng = sites_[record].ng;
+  point.ns = sites_[record].ns;
+  point.error = sites_[record].error;
+  return point;
+}
+
+}  // namespace octolux

@@ -1,0 +1,51 @@
+// Where a pass keeps what is the same for many rays near one another (records), and which record
+// serves which point.
+//
+// Sites are where the photons of a second photon pass land: where light is, so close together where
+// the bandwidth is narrow. Those photons take part in no estimate. A record at a photon of the map
+// itself would find that photon at distance 0, and one found by leaving it out would know that no
+// other is between it and the point that asks: both are biased by about 1/n at every number of
+// passes. For the same reason, which record serves a point, and whether it is near enough, is
+// decided by the sites alone. "Near enough" is a share of the bandwidth, which shrinks from pass to
+// pass, so a render converges to the same picture with records and without.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "accel/photon_tree.h"
+#include "core/photon.h"
+#include "estimators/estimator.h"
+
+namespace octolux {
+
+/// Immutable, thread-safe.
+class RecordSites {
+ public:
+  RecordSites() = default;
+  /// One record for each photon. Each serves points within the share `reuse` of the bandwidth, as
+  /// far as the density of the sites tells it, of look-ups for `neighbours` photons.
+  RecordSites(const std::vector<Photon>& photons, const Bandwidth& bandwidth, int neighbours,
+              double reuse);
+
+  std::size_t size() const { return sites_.size(); }
+  /// The record that serves a query: the nearest in its squashed metric on a surface that faces the
+  /// same way, shading normals included, if it is near enough.
+  std::optional<std::uint32_t> find(const PhotonQuery& query, Vec3 shading_normal) const;
+  /// The surface at a record, its front side where the light came from.
+  SurfacePoint point(std::uint32_t record) const;
+
+ private:
+  struct Site {
+    Vec3 ng, ns;      // normals on the side the light came from
+    float error = 0;  // [m] bound on the error of the position
+  };
+
+  PhotonTree tree_;
+  std::vector<Site> sites_;    // in the tree's order
+  std::vector<float> reach2_;  // [m^2] per block of the tree: how far its records serve
+  float max_reach2_ = 0;
+};
+
+}  // namespace octolux

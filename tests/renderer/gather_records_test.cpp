@@ -1,0 +1,171 @@
+// renderer/record_sites.h and renderer/gather_records.h: the record that serves a point is the one
+// brute force finds; it holds what a look-up there finds; in the mean that is the irradiance.
+#include "renderer/gather_records.h"
+
+#include <gtest/gtest.h>
+
+#include "core/bsdf_makers.h"
+#include "core/constants.h"
+#include "core/sampling.h"
+#include "tests/stats.h"
+
+namespace octolux::test {
+namespace {
+
+constexpr Vec3 kUp{0, 0, 1};
+constexpr int kNeighbours = 20;
+constexpr double kReuse = 0.5;
+
+Rng rng_of(int use, int i) {
+  return Rng(1, Stream::test, 810 + static_cast<std::uint64_t>(use), static_cast<std::uint64_t>(i));
+}
+
+/// Photons of flux 1 / count each on the unit square in z = 0, path lengths 1 and 2 in turn.
+std::vector<Photon> on_square(int count, Rng rng) {
+  std::vector<Photon> photons;
+  for (int i = 0; i < count; ++i) {
+    const Vec2 at = rng.uniform2();
+    const Vec3 wi = sample_cosine_hemisphere(rng.uniform2());
+    photons.push_back(
+        {{at.x, at.y, 0}, wi, kUp, Rgb(1.0f / static_cast<float>(count)), 1 + i % 2, 0, kUp});
+  }
+  return photons;
+}
+
+TriangleMesh square(Vec3 corner, Vec3 a, Vec3 b) {
+  return {{corner, corner + a, corner + a + b, corner + b}, {}, {}, {{0, 1, 2}, {0, 2, 3}}};
+}
+
+/// The unit square, and a screen across it at x = 0.5, seen from both sides.
+std::vector<Shape> shapes(bool screen) {
+  std::vector<Shape> list;
+  list.push_back({square({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), 0, -1, "floor"});
+  if (screen) list.push_back({square({0.5f, 0, 0}, {0, 1, 0}, {0, 0, 1}), 0, -1, "screen"});
+  return list;
+}
+
+/// A point of the floor as a gather ray meets it.
+struct Place {
+  explicit Place(Vec2 xy) : bsdf(make_diffuse(Color(Rgb(0.5f)))) {
+    point.position = {xy.x, xy.y, 0};
+    point.ng = point.ns = kUp;
+  }
+  SurfacePoint point;
+  std::unique_ptr<Bsdf> bsdf;
+  Scattering at{point, *bsdf, kUp, Carried::radiance};
+};
+
+class Records : public testing::Test {
+ protected:
+  explicit Records(bool screen = false) : shapes_(shapes(screen)), caster_(shapes_) {
+    config_.neighbours = kNeighbours;
+    estimator_ = make_estimator({.kernel = "cone", .neighbours = kNeighbours});
+  }
+  GatherRecords make(const std::vector<Photon>& sites, const RadianceMap& map) const {
+    return {RecordSites(sites, map.bandwidth(), kNeighbours, kReuse), map, caster_, config_};
+  }
+  RadianceMap map(std::vector<Photon> photons, float shrink = 1) const {
+    return {PhotonMap(std::move(photons)), *estimator_, {1, shrink}};
+  }
+
+  std::vector<Shape> shapes_;
+  RayCaster caster_;
+  RecordConfig config_;
+  std::unique_ptr<Estimator> estimator_;
+};
+
+TEST_F(Records, TheNearestSiteThatFacesTheSameWayServes) {
+  std::vector<Photon> photons = on_square(4000, rng_of(0, 0));
+  for (std::size_t i = 0; i < photons.size(); i += 3) photons[i].normal = photons[i].ns = -kUp;
+  const Bandwidth bandwidth{1, 1};
+  const RecordSites sites(photons, bandwidth, kNeighbours, kReuse);
+  const RecordSites near(photons, bandwidth, kNeighbours, 1e-4);
+  int served = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Vec2 at = rng_of(1, i).uniform2();
+    const Vec3 position{at.x, at.y, 0.001f};
+    float nearest2 = kInfinity;
+    for (const Photon& p : photons) {
+      const Vec3 d = p.position - position;
+      if (p.normal.z > 0) nearest2 = std::min(nearest2, dot(d, d) + 8 * d.z * d.z);
+    }
+    const PhotonQuery query{.position = position, .normal = kUp};
+    EXPECT_FALSE(near.find(query, kUp));
+    const std::optional<std::uint32_t> found = sites.find(query, kUp);
+    if (!found) continue;
+    ++served;
+    const Vec3 d = sites.point(*found).position - position;
+    EXPECT_EQ(sites.point(*found).ng, kUp);
+    EXPECT_NEAR(dot(d, d) + 8 * d.z * d.z, nearest2, 1e-6f * nearest2);
+  }
+  // Half the bandwidth holds 5 sites, of which 10 / 3 face up: e^(-10/3) of the points, 18, find
+  // none, and a few at the edges.
+  EXPECT_GT(served, 450);
+}
+
+TEST_F(Records, HoldWhatALookUpFindsThere) {
+  const RadianceMap photons = map(on_square(2000, rng_of(2, 0)));
+  const std::vector<Photon> site = {{{0.4f, 0.6f, 0}, kUp, kUp, Rgb(1), 1, 0, kUp},
+                                    {{0.6f, 0.4f, 0}, kUp, kUp, Rgb(1), 1, 0, kUp}};
+  config_.max_segments = 2;
+  const GatherRecords records = make(site, photons);
+  const Place at_site({0.4f, 0.6f}), aside({0.41f, 0.6f}), other({0.6f, 0.41f});
+  const std::unique_ptr<Bsdf> white = make_diffuse(Color(Rgb(1)));
+  for (const int segments : {2, 1}) {
+    const Scattering at(at_site.point, *white, kUp, Carried::radiance);
+    const Rgb expected = photons.radiance({at, segments});
+    EXPECT_EQ(records.white_radiance({aside.at, segments}), expected) << segments;
+    EXPECT_EQ(records.white_radiance({aside.at, segments}), expected) << "asked again";
+    EXPECT_NE(records.white_radiance({other.at, segments}), expected);
+  }
+  // No photon has a longer path than 2, so longer ones do not differ; 0 counts none.
+  EXPECT_EQ(records.white_radiance({aside.at, 255}), records.white_radiance({aside.at, 2}));
+  EXPECT_EQ(records.white_radiance({aside.at, 0}), Rgb(0));
+  const Surroundings* around = records.surroundings({aside.at});
+  ASSERT_NE(around, nullptr);
+  EXPECT_EQ(around->bandwidth, photons.neighbourhood({at_site.at, 3}, kNeighbours).bandwidth);
+  EXPECT_EQ(records.surroundings({aside.at}), around);
+}
+
+TEST_F(Records, WithoutSitesNobodyIsServed) {
+  const RadianceMap photons = map(on_square(100, rng_of(3, 0)));
+  const Place place({0.5f, 0.5f});
+  EXPECT_FALSE(make({}, photons).white_radiance({place.at}));
+  EXPECT_EQ(make({}, photons).surroundings({place.at}), nullptr);
+  EXPECT_FALSE(GatherRecords().white_radiance({place.at}));
+}
+
+class RecordsBehindAScreen : public Records {
+ protected:
+  RecordsBehindAScreen() : Records(true) {}
+};
+
+TEST_F(RecordsBehindAScreen, AreRefusedWhereTheKernelLooksAtTheGeometry) {
+  const RadianceMap photons = map(on_square(2000, rng_of(4, 0)));
+  const std::vector<Photon> site = {{{0.49f, 0.3f, 0}, kUp, kUp, Rgb(1), 1, 0, kUp},
+                                    {{0.49f, 0.7f, 0}, kUp, kUp, Rgb(1), 1, 0, kUp}};
+  const Place here({0.48f, 0.3f}), behind({0.51f, 0.3f});
+  EXPECT_TRUE(make(site, photons).white_radiance({behind.at}));
+  config_.must_see = true;
+  EXPECT_TRUE(make(site, photons).white_radiance({here.at}));
+  EXPECT_FALSE(make(site, photons).white_radiance({behind.at}));
+}
+
+/// Records must not know the photons: neither where they are nor how many.
+TEST_F(Records, AreUnbiasedOnAnEvenPlane) {
+  const Place place({0.5f, 0.5f});
+  for (const float shrink : {1.0f, 0.5f}) {
+    Running estimates;
+    for (int i = 0; i < 4000; ++i) {
+      const RadianceMap photons = map(on_square(400, rng_of(5, i)), shrink);
+      const GatherRecords records = make(on_square(400, rng_of(6, i)), photons);
+      const std::optional<Rgb> found = records.white_radiance({place.at});
+      if (found) estimates.add(found->r);
+    }
+    EXPECT_GT(estimates.count(), 2000u);
+    EXPECT_GT(z_test_p(estimates.z(kInvPi)), sidak(kAlpha, 2)) << shrink;
+  }
+}
+
+}  // namespace
+}  // namespace octolux::test
