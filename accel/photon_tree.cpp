@@ -61,6 +61,18 @@ PhotonTree::PhotonTree(std::span<Item> items, std::span<const FacingSet> facing)
   }
 }
 
+std::uint32_t PhotonTree::leaf_at(Vec3 position) const {
+  const std::array<float, 3> p{position.x, position.y, position.z};
+  std::uint32_t node = 1;
+  while (node < leaf_count()) node = 2 * node + (p[nodes_[node].axis] >= nodes_[node].split);
+  return block_of(node);
+}
+
+std::size_t PhotonTree::memory() const {
+  return blocks_.capacity() * sizeof(Block) + nodes_.capacity() * sizeof(Node) +
+         block_facing_.capacity() * sizeof(FacingSet);
+}
+
 void PhotonTree::split(std::span<Item> items, std::uint32_t node, std::uint32_t leaves) {
   if (leaves < 2) return;
   const std::uint32_t left = left_leaves(leaves);
