@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "accel/photon_filter.h"
@@ -185,21 +186,22 @@ std::span<const Neighbour> PhotonMap::within(const PhotonQuery& query,
 }
 
 float PhotonMap::rough_distance(Vec3 position, std::size_t k) const {
-  PhotonTreeWalk walk(tree_, position);
-  const std::uint32_t b = walk.next<PhotonTreeWalk::Order::nearest_first>(kInfinity);
-  if (b == PhotonTreeWalk::kEnd) return kInfinity;
-  const PhotonTree::Block& block = tree_.block(b);
-  float sum = 0;
-  float count = 0;
-  for (std::uint32_t lane = 0; lane < PhotonTree::kBlockSize; ++lane) {
-    const float dx = block.x[lane] - position.x;
-    const float dy = block.y[lane] - position.y;
-    const float dz = block.z[lane] - position.z;
-    const float d2 = dx * dx + dy * dy + dz * dz;
-    const bool there = d2 < kInfinity;
-    sum += there ? d2 : 0;
-    count += there ? 1 : 0;
+  if (size() == 0) return kInfinity;
+  const PhotonTree::Block& block = tree_.block(tree_.leaf_at(position));
+  constexpr std::uint32_t kLanes = 8;  // sums for SIMD
+  float sums[kLanes] = {}, counts[kLanes] = {};
+  for (std::uint32_t first = 0; first < PhotonTree::kBlockSize; first += kLanes) {
+    for (std::uint32_t i = 0; i < kLanes; ++i) {
+      const float dx = block.x[first + i] - position.x;
+      const float dy = block.y[first + i] - position.y;
+      const float dz = block.z[first + i] - position.z;
+      const float d2 = dx * dx + dy * dy + dz * dz;
+      sums[i] += d2 < kInfinity ? d2 : 0;
+      counts[i] += d2 < kInfinity ? 1.0f : 0.0f;
+    }
   }
+  const float sum = std::accumulate(sums, sums + kLanes, 0.0f);
+  const float count = std::accumulate(counts, counts + kLanes, 0.0f);
   // Two random points of a square leaf are at a mean squared distance of a third of its area.
   const float area = 3 * sum / count;
   return std::sqrt(area * (static_cast<float>(k) / count) * kInvPi);

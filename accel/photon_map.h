@@ -67,6 +67,8 @@ class PhotonMap {
   /// Bytes held, tree included.
   std::size_t memory() const;
   Vec3 position(std::uint32_t photon) const { return tree_.position(photon); }
+  const PhotonTree& tree() const { return tree_; }
+  const PhotonPayload* payloads() const { return payloads_.data(); }
   const PhotonPayload& payload(std::uint32_t photon) const { return payloads_[photon]; }
   Rgb flux(std::uint32_t photon) const { return unpack_flux(payloads_[photon].flux); }
   Vec3 wi(std::uint32_t photon) const { return octolux::wi(payloads_[photon]); }

@@ -12,8 +12,8 @@
 namespace octolux {
 namespace {
 
-constexpr std::size_t kParallelItems = 8192;  // below, a task costs more than it saves
-constexpr std::uint32_t kMaxLeaves = 1u << 28;
+constexpr std::size_t kParallelItems = 8192;    // below, a task costs more than it saves
+constexpr std::uint32_t kMaxLeaves = 1u << 25;  // so that coordinate_offset is below 2^31
 
 std::uint32_t widest_axis(std::span<const PhotonTree::Item> items) {
   Vec3 lower = items[0].position;
@@ -59,6 +59,18 @@ PhotonTree::PhotonTree(std::span<Item> items, std::span<const FacingSet> facing)
   for (std::uint32_t node = leaf_count() - 1; node > 0; --node) {
     nodes_[node].facing = facing_of(2 * node) | facing_of(2 * node + 1);
   }
+}
+
+std::uint32_t PhotonTree::leaf_at(Vec3 position) const {
+  const std::array<float, 3> p{position.x, position.y, position.z};
+  std::uint32_t node = 1;
+  while (node < leaf_count()) node = 2 * node + (p[nodes_[node].axis] >= nodes_[node].split);
+  return block_of(node);
+}
+
+std::size_t PhotonTree::memory() const {
+  return blocks_.capacity() * sizeof(Block) + nodes_.capacity() * sizeof(Node) +
+         block_facing_.capacity() * sizeof(FacingSet);
 }
 
 void PhotonTree::split(std::span<Item> items, std::uint32_t node, std::uint32_t leaves) {

@@ -53,10 +53,16 @@ class PhotonTree {
     const std::uint32_t lane = photon % kBlockSize;
     return {b.x[lane], b.y[lane], b.z[lane]};
   }
-  std::size_t memory() const {
-    return blocks_.capacity() * sizeof(Block) + nodes_.capacity() * sizeof(Node) +
-           block_facing_.capacity() * sizeof(FacingSet);
+  /// x of a photon is at coordinate_offset(photon), below 2^31, y and z kBlockSize and twice that
+  /// behind. Photons may be a vector of indices.
+  const float* coordinates() const { return blocks_.empty() ? nullptr : blocks_[0].x; }
+  template <class Photons>
+  static Photons coordinate_offset(Photons photons) {
+    return photons + 2 * (photons & ~static_cast<int>(kBlockSize - 1));
   }
+  /// The block around a position; there must be one.
+  std::uint32_t leaf_at(Vec3 position) const;
+  std::size_t memory() const;
 
  private:
   friend class PhotonTreeWalk;

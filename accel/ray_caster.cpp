@@ -1,5 +1,6 @@
 // RayCaster: rays to Embree and hits back. Embree answers an instance's hit in the group's space
 // (normals, the object position of a quadric); only t needs no change. Thread-safe.
+#include <algorithm>
 #include <array>
 
 #include "accel/embree_scene.h"
@@ -36,6 +37,39 @@ RTCRayHit8 to_embree(const RayPacket& packet) {
 
 struct RayCaster::Impl : EmbreeScene {
   using EmbreeScene::EmbreeScene;
+
+  /// Corners of primitive `primitive` of the shape of this number, if it is a triangle.
+  std::optional<std::array<Vec3, 3>> corners(std::uint32_t number, std::uint32_t primitive) const {
+    const auto [shape, instance] = find(number);
+    const auto* mesh = std::get_if<TriangleMesh>(&shape->geometry);
+    if (mesh == nullptr || primitive >= mesh->triangles.size()) return std::nullopt;
+    const auto& corner = mesh->triangles[primitive];
+    const Vec3* at = mesh->positions.data();
+    std::array found{at[corner[0]], at[corner[1]], at[corner[2]]};
+    if (instance) {
+      for (Vec3& p : found) p = instance->to_world.point(p);
+    }
+    return found;
+  }
+
+  NearPrimitive near_primitive(std::uint32_t number, std::uint32_t primitive, Vec3 p) const {
+    const auto [shape, instance] = find(number);
+    NearPrimitive near;
+    near.id = std::uint64_t{number} << 32 | primitive;
+    const auto* mesh = std::get_if<TriangleMesh>(&shape->geometry);
+    if (mesh != nullptr) {
+      for (int i = 0; i < 3; ++i) {
+        near.corners[i] = mesh->positions[mesh->triangles[primitive][i]];
+        if (instance) near.corners[i] = instance->to_world.point(near.corners[i]);
+      }
+      return near;
+    }
+    Bounds box = octolux::bounds(*shape);
+    if (instance) box = place(box, instance->to_world);
+    near.triangle = false;
+    near.distance = length(max(max(box.lower - p, p - box.upper), Vec3{0, 0, 0}));
+    return near;
+  }
 };
 
 RayCaster::RayCaster(std::span<const Shape> shapes, std::span<const Instance> instances,
@@ -90,19 +124,32 @@ std::array<PacketHit, RayPacket::kSize> RayCaster::closest_hits(const RayPacket&
   return hits;
 }
 
-std::optional<std::array<Vec3, 3>> RayCaster::triangle(std::uint32_t number,
+void RayCaster::visit_near(Vec3 p, float radius, NearFunction function, void* visitor) const {
+  struct Visit {
+    const Impl& scene;
+    Vec3 p;
+    NearFunction function;
+    void* visitor;
+  } visit{*impl_, p, function, visitor};
+  const auto show = [](RTCPointQueryFunctionArguments* args) {
+    const Visit& v = *static_cast<const Visit*>(args->userPtr);
+    const RTCPointQueryContext& stack = *args->context;
+    const unsigned placed_by = stack.instStackSize > 0 ? stack.instID[0] : RTC_INVALID_GEOMETRY_ID;
+    const std::uint32_t number = v.scene.number(args->geomID, placed_by);
+    const float from = args->query->radius;
+    const float to = v.function(v.visitor, v.scene.near_primitive(number, args->primID, v.p));
+    args->query->radius = std::min(from, to);
+    return to < from;
+  };
+  RTCPointQuery query{p.x, p.y, p.z, 0, radius};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(impl_->handle(), &query, &context, show, &visit);
+}
+
+std::optional<std::array<Vec3, 3>> RayCaster::triangle(std::uint32_t shape,
                                                        std::uint32_t primitive) const {
-  if (!impl_->has(number)) return std::nullopt;
-  const auto [shape, instance] = impl_->find(number);
-  const auto* mesh = std::get_if<TriangleMesh>(&shape->geometry);
-  if (mesh == nullptr || primitive >= mesh->triangles.size()) return std::nullopt;
-  const auto& corner = mesh->triangles[primitive];
-  std::array corners{mesh->positions[corner[0]], mesh->positions[corner[1]],
-                     mesh->positions[corner[2]]};
-  if (instance) {
-    for (Vec3& p : corners) p = instance->to_world.point(p);
-  }
-  return corners;
+  return impl_->has(shape) ? impl_->corners(shape, primitive) : std::nullopt;
 }
 
 SurfacePoint RayCaster::surface(const RayHit& hit) const {

@@ -47,6 +47,17 @@ struct PlacedShape {
   std::uint32_t instance = 0;  // in the list of instances
 };
 
+/// A primitive near a point.
+struct NearPrimitive {
+  std::uint64_t id = 0;
+  std::array<Vec3, 3> corners;  // of a triangle
+  bool triangle = true;         // false: all that is known is that it is not nearer than
+  float distance = 0;           // this [m]
+};
+/// Notes one on `visitor`, and says how far to look from now on [m]. A pointer to a function,
+/// because it is called for all that is near.
+using NearFunction = float (*)(void* visitor, const NearPrimitive& primitive);
+
 /// Thread-safe after construction. Uses Embree's robust mode: edges shared by triangles are
 /// watertight, because a ray slipping between two walls is a light leak. (Vertices are so up to
 /// rounding: of rays aimed at one exactly, a few in a thousand pass.)
@@ -68,6 +79,9 @@ class RayCaster {
   bool occluded(const Ray& ray) const;
   /// Closest hits of the active lanes.
   std::array<PacketHit, RayPacket::kSize> closest_hits(const RayPacket& packet) const;
+  /// Shows the primitives that come nearer to `p` than `radius` [m], and others; one may come
+  /// twice.
+  void visit_near(Vec3 p, float radius, NearFunction function, void* visitor) const;
   /// Corners of a primitive that is a triangle.
   std::optional<std::array<Vec3, 3>> triangle(std::uint32_t shape, std::uint32_t primitive) const;
   /// The surface at a hit.

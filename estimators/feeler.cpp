@@ -69,12 +69,14 @@ class FeelerFilter final : public Estimator {
       if (found.disc.empty()) return {};
       area = std::numbers::pi * found.disc.h2;
     }
-    Estimate estimate = radial_sum(at, map, found.disc, FlatKernel{});
+    thread_local PlanePoints points;
+    const bool whole = in_wall || found.whole();
+    Estimate estimate = whole ? sum_and_project(at, map, found.disc, points)
+                              : radial_sum(at, map, found.disc, FlatKernel{});
     if (estimate.count == 0) return estimate;
     const double flat = std::numbers::pi * found.disc.h2 / area;
-    const double density = in_wall || found.whole()
-                               ? disc_gain(at, map, found.disc, estimate.count)
-                               : region_gain(at, map, found, area, estimate.count);
+    const double density = whole ? disc_gain(points, found.disc, estimate.count)
+                                 : region_gain(at, map, found, area, estimate.count);
     const auto gain = static_cast<float>(flat * density);
     estimate.radiance = in_range(estimate.radiance * gain);
     estimate.area /= gain > 0 ? gain : 1;
@@ -82,11 +84,9 @@ class FeelerFilter final : public Estimator {
   }
 
   /// Density of the photons by that of a flat estimate over the whole disc.
-  double disc_gain(const GatherPoint& at, const PhotonMap& map, const Disc& disc, int count) const {
+  double disc_gain(PlanePoints& points, const Disc& disc, int count) const {
     const OctoBoxCorrection& correction = table_[disc.photons.size()];
     if (correction.share == 0) return 1;
-    thread_local PlanePoints points;
-    project_photons(at, map, disc, points);
     const float radius = std::sqrt(disc.h2 / disc.r2);
     const Fit fit = fit_octobox(points, radius, use_);
     return blend(correction, fit, kPi * radius * radius, count);

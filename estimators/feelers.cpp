@@ -35,13 +35,15 @@ bool goes_on(const TangentPlane& plane, const PacketHit& hit, float climb, float
 
 }  // namespace
 
+float feeler_lift(const FeelerQuery& query) { return 2 * query.point.error + kLift * query.length; }
+
 TangentPlane::TangentPlane(const FeelerQuery& query)
     : origin(query.point.position), n(query.normal) {
   const Frame frame = Frame::from_normal(n);
   const float angle = query.turn * (2 * kPi / static_cast<float>(query.feelers));
   s = frame.s * std::cos(angle) + frame.t * std::sin(angle);
   t = cross(n, s);
-  lift = 2 * query.point.error + kLift * query.length;
+  lift = feeler_lift(query);
   const float cosine = std::max(dot(query.wo, n), 0.0f);
   const float back = cosine > 0.25f ? lift / cosine : 4 * lift;
   start = origin + query.wo * back + n * (lift - back * cosine);

@@ -44,6 +44,9 @@ struct FeelerQuery {
   bool edges = true;  // look for free edges, too
 };
 
+/// Height [m] of the feelers above the tangent plane.
+float feeler_lift(const FeelerQuery& query);
+
 /// The tangent plane of a query, and the tolerances there.
 struct TangentPlane {
   Vec3 origin, s, t, n;

@@ -154,6 +154,10 @@ void FreeRegion::add(int sector, int slot, HalfPlane line) {
 }
 
 float FreeRegion::extent() const {
+  const bool open = std::any_of(region_.sectors.begin(), region_.sectors.end(), [&](const auto& s) {
+    return *std::min_element(s.c.begin(), s.c.end()) >= reach_;
+  });
+  if (open) return kInfinity;
   float extent = 0;
   for (int i = 0; i < PhotonRegion::kSectors && extent < reach_; ++i) {
     extent = std::max(extent, sector_extent(region_.sectors[i], i, reach_));

@@ -30,21 +30,21 @@ class OctoBox final : public Estimator {
     const Disc disc =
         find_disc(at, map, bandwidth, config_.neighbours, buffer, bandwidth_rule(config_));
     if (disc.empty()) return {};
-    Estimate estimate = radial_sum(at, map, disc, FlatKernel{});
-    const float gain =
-        config_.correction ? corrected(at, map, disc, estimate.count) : published(at, map, disc);
-    estimate.radiance = in_range(estimate.radiance * gain);
-    if (gain > 0) estimate.area /= gain;
-    return estimate;
+    return config_.correction ? corrected(at, map, disc) : published(at, map, disc);
   }
 
  private:
-  /// Area of the disc by that of the boxes.
-  float corrected(const GatherPoint& at, const PhotonMap& map, const Disc& disc, int count) const {
+  Estimate corrected(const GatherPoint& at, const PhotonMap& map, const Disc& disc) const {
     const OctoBoxCorrection& correction = table_[disc.photons.size()];
-    if (correction.share == 0 || count == 0) return 1;
+    if (correction.share == 0) return radial_sum(at, map, disc, FlatKernel{});
     thread_local PlanePoints points;
-    project_photons(at, map, disc, points);
+    const Estimate flat = sum_and_project(at, map, disc, points);
+    return flat.count == 0 ? flat : raised(flat, gain(points, disc, correction, flat.count));
+  }
+
+  /// Area of the disc by that of the boxes.
+  float gain(PlanePoints& points, const Disc& disc, const OctoBoxCorrection& correction,
+             int count) const {
     const float radius = std::sqrt(disc.h2 / disc.r2);
     const Fit fit = fit_octobox(points, radius, use_);
     const float disc_area = kPi * radius * radius;
@@ -54,12 +54,20 @@ class OctoBox final : public Estimator {
            correction.share * density * disc_area / static_cast<float>(count);
   }
 
-  float published(const GatherPoint& at, const PhotonMap& map, const Disc& disc) const {
+  Estimate published(const GatherPoint& at, const PhotonMap& map, const Disc& disc) const {
     thread_local PlanePoints points;
     project_inner_photons(at, map, disc, points);
     const float disc_area = kPi * disc.h2 / disc.r2;
     const float area = published_octobox_area(points, use_);
-    return area > kDegenerate * disc_area ? disc_area / area : 1;
+    const Estimate flat = radial_sum(at, map, disc, FlatKernel{});
+    return raised(flat, area > kDegenerate * disc_area ? disc_area / area : 1);
+  }
+
+  /// The flat estimate over the disc's area divided by `gain`.
+  static Estimate raised(Estimate estimate, float gain) {
+    estimate.radiance = in_range(estimate.radiance * gain);
+    if (gain > 0) estimate.area /= gain;
+    return estimate;
   }
 
   EstimatorConfig config_;

@@ -24,26 +24,23 @@ class PlanePoints {
  public:
   void resize(int count);
   int size() const { return count_; }
-  int padded_size() const { return static_cast<int>(x_.size()); }
+  int padded_size() const { return (count_ + kSides - 1) / kSides * kSides; }
   Vec2 operator[](int i) const { return {x_[i], y_[i]}; }
   /// `inside`: within the disc that is estimated (all points shape the box).
   void set(int i, Vec2 p, bool inside) { x_[i] = p.x, y_[i] = p.y, inside_[i] = inside ? 1 : 0; }
   const float* x() const { return x_.data(); }
   const float* y() const { return y_.data(); }
   const float* inside() const { return inside_.data(); }  // 1 or 0
-  /// Positions (x, y, z) relative to the query, and squared distances in the look-up's metric.
-  struct Positions {
-    std::vector<float> x, y, z, distance2;
-    void resize(int count);  // and room for padding
-  };
-  /// Replaces all points by the first `count` positions (which it pads): their coordinates along
-  /// `s` and `t`, inside where distance2 < inside2.
-  void project(Positions& positions, int count, Vec3 s, Vec3 t, float inside2);
-  /// Turns the axes by the angle whose cosine and sine are given.
-  void turn(Vec2 axis);
+  /// Room for `count` points, to be written through the pointers, padding included.
+  void start(int count);
+  float* x() { return x_.data(); }
+  float* y() { return y_.data(); }
+  float* inside() { return inside_.data(); }
+  /// Turns the axes by the angle whose cosine and sine are given. Returns octobox_with_origin().
+  Lanes turn(Vec2 axis);
 
  private:
-  int count_ = 0;
+  int count_ = 0;  // the arrays may be longer
   std::vector<float> x_, y_, inside_;
 };
 
@@ -59,6 +56,8 @@ Lanes octobox(const PlanePoints& points);
 float octobox_area(const Lanes& box);
 /// Area of the box within the disc of `radius` around the origin. d_j >= 0.
 float octobox_area(const Lanes& box, float radius);
+/// Less than that, but not by much: the disc's arcs are replaced by lines to the origin.
+float octobox_area_at_least(const Lanes& box, float radius);
 
 /// A convex polygon with the origin in each octant, all folded onto 0 <= b <= a with
 /// a = max(|x|, |y|), b = min(|x|, |y|). Octant i spans the angles from 45 i to 45 (i + 1) degrees.

@@ -13,8 +13,8 @@ namespace {
 
 constexpr float kSqrtHalf = 0.70710678118654752f;
 
-float smooth_step(float low, float high, float x) {
-  const float t = std::clamp((x - low) / (high - low), 0.0f, 1.0f);
+Float8 smooth_step(float low, float high, Float8 x) {
+  const Float8 t = min8(max8((x - low) / (high - low), splat8(0)), splat8(1));
   return t * t * (3 - 2 * t);
 }
 
@@ -26,24 +26,21 @@ Lanes align(PlanePoints& points) {
   constexpr int kAxes = 6;
   constexpr float kLargestShare = 0.75f;
   constexpr float kMissing = 12.5f;  // photons' worth of disc; the box misses 7 on average
-  points.turn(principal_axis(points));
-  Lanes best = octobox_with_origin(points);
-  float best_area = octobox_area(best, 1);
+  const Lanes principal = points.turn(principal_axis(points));
   const float share = std::min(kLargestShare, 1 - kMissing / static_cast<float>(points.size()));
-  if (best_area > share * kPi) return best;
+  if (octobox_area_at_least(principal, 1) > share * kPi) return principal;
+  float best_area = octobox_area(principal, 1);
+  if (best_area > share * kPi) return principal;
   thread_local PlanePoints turned;
   turned = points;
   constexpr Vec2 kStep{0.99144486137381041f, 0.13052619222005159f};  // 7.5 degrees
   Vec2 axis{1, 0}, best_axis = axis;
   for (int i = 1; i < kAxes; ++i) {
-    turned.turn(kStep);
     axis = {axis.x * kStep.x - axis.y * kStep.y, axis.x * kStep.y + axis.y * kStep.x};
-    const float area = octobox_area(octobox_with_origin(turned), 1);
+    const float area = octobox_area(turned.turn(kStep), 1);
     if (area < best_area) best_area = area, best_axis = axis;
   }
-  if (best_axis.x == 1) return best;
-  points.turn(best_axis);
-  return octobox_with_origin(points);
+  return best_axis.x == 1 ? principal : points.turn(best_axis);
 }
 
 /// Set where a point is strictly inside the box. Compares what octobox_with_origin computed, bit
@@ -64,94 +61,82 @@ __attribute__((always_inline)) inline Folded8 fold8(Float8 x, Float8 y) {
   return {a, b, a + b, a - b};
 }
 
-/// The points in order of their octants, each octant padded to whole groups of eight.
-struct SortedPoints {
-  PlanePoints points;
-  std::array<int, kSides + 1> start;
-};
-
-void sort_by_octant(const PlanePoints& points, SortedPoints& sorted) {
-  const std::array<int, kSides> counts = octant_counts(points);
-  sorted.start[0] = 0;
-  for (int i = 0; i < kSides; ++i) {
-    sorted.start[i + 1] = sorted.start[i] + (counts[i] + kSides - 1) / kSides * kSides;
-  }
-  sorted.points.resize(sorted.start[kSides]);
-  std::array<int, kSides> next;
-  for (int i = 0; i < kSides; ++i) {
-    next[i] = sorted.start[i];
-    for (int k = next[i] + counts[i]; k < sorted.start[i + 1]; ++k) {
-      sorted.points.set(k, {0, 0}, false);
-    }
-  }
-  for (int i = 0; i < points.size(); ++i) {
-    const Vec2 p = points[i];
-    sorted.points.set(next[octant(p.x, p.y)]++, p, points.inside()[i] > 0);
-  }
+/// Octants (0 to 7) of eight points, as octant() has them.
+__attribute__((always_inline)) inline Mask8 octants_of(Float8 x, Float8 y) {
+  const Mask8 left = x < 0, below = y<0, steep = abs8(y)> abs8(x);
+  return (below & 4) | ((left ^ below) & 2) | ((steep ^ left ^ below) & 1);
 }
 
-Octants sorted_octant_boxes(const SortedPoints& sorted) {
+/// The same as octant_boxes(), eight points at once: each point is one vector of its four supports.
+Octants octant_supports(const PlanePoints& points) {
+  Float4 most[kSides] = {};
+  for (int i = 0, end = points.padded_size(); i < end; i += kSides) {
+    const Float8 x = load8(points.x() + i), y = load8(points.y() + i);
+    const Folded8 p = fold8(x, y);
+    Float4 supports[kSides];
+    transpose8(p.a, p.b, p.sum, p.difference, supports);
+    const Mask8 octants = octants_of(x, y);
+    for (int k = 0; k < kSides; ++k) {
+      Float4& m = most[octants[k]];
+      m = supports[k] > m ? supports[k] : m;
+    }
+  }
   Octants boxes;
   for (int i = 0; i < kSides; ++i) {
-    Float8 most[kSides] = {};
-    for (int k = sorted.start[i]; k < sorted.start[i + 1]; k += kSides) {
-      const Folded8 p = fold8(load8(sorted.points.x() + k), load8(sorted.points.y() + k));
-      most[0] = max8(most[0], p.a);
-      most[1] = max8(most[1], p.b);
-      most[2] = max8(most[2], p.sum);
-      most[3] = max8(most[3], p.difference);
-    }
-    const Float8 support = reduce8(most, Max8{});
-    boxes.a[i] = support[0];
-    boxes.b[i] = support[1];
-    boxes.sum[i] = support[2];
-    boxes.difference[i] = support[3];
+    boxes.a[i] = most[i][0];
+    boxes.b[i] = most[i][1];
+    boxes.sum[i] = most[i][2];
+    boxes.difference[i] = most[i][3];
   }
   return boxes;
 }
 
-/// Points of octant i inside its boxes: `share` of a point for its own, the rest for the common
-/// one.
-float count_octant(const SortedPoints& sorted, int i, const Lanes& box, const Octants& own,
-                   float share) {
+/// Points inside: in each octant, `share` of a point for its own box, the rest for the common one.
+float count_inside_octants(const PlanePoints& points, const Lanes& box, const Octants& own,
+                           Float8 share) {
+  const Float8 a = load8(own.a.data()), b = load8(own.b.data());
+  const Float8 sum = load8(own.sum.data()), difference = load8(own.difference.data());
   Float8 count = {};
-  for (int k = sorted.start[i]; k < sorted.start[i + 1]; k += kSides) {
-    const Float8 x = load8(sorted.points.x() + k), y = load8(sorted.points.y() + k);
+  for (int i = 0, end = points.padded_size(); i < end; i += kSides) {
+    const Float8 x = load8(points.x() + i), y = load8(points.y() + i);
     const Folded8 p = fold8(x, y);
-    const Mask8 within_own = (p.a < own.a[i]) & (p.b < own.b[i]) & (p.sum < own.sum[i]) &
-                             (p.difference < own.difference[i]);
-    count += load8(sorted.points.inside() + k) *
-             ((1 - share) * ones8(is_within(box, x, y)) + share * ones8(within_own));
+    const Mask8 k = octants_of(x, y);
+    const Mask8 within_own = (p.a < lookup8(a, k)) & (p.b < lookup8(b, k)) &
+                             (p.sum < lookup8(sum, k)) & (p.difference < lookup8(difference, k));
+    const Float8 s = lookup8(share, k);
+    count += load8(points.inside() + i) *
+             ((1 - s) * ones8(is_within(box, x, y)) + s * ones8(within_own));
   }
   return sum8(count);
 }
 
 Fit fit_octants(const PlanePoints& points, const Lanes& box, const Lanes& own_share, float radius) {
-  thread_local SortedPoints sorted;
-  sort_by_octant(points, sorted);
-  const Octants own = sorted_octant_boxes(sorted);
-  const Lanes own_area = octant_areas(own, radius);
-  const Lanes common_area = octant_areas(split(box), radius);
-  Fit fit;
+  const Octants own = octant_supports(points);
+  const Lanes own_areas = octant_areas(own, radius);
+  const Lanes common_areas = octant_areas(split(box), radius);
+  float area = 0;  // in the order of the octants
   for (int i = 0; i < kSides; ++i) {
-    fit.area += (1 - own_share[i]) * common_area[i] + own_share[i] * own_area[i];
-    fit.count += count_octant(sorted, i, box, own, own_share[i]);
+    area += (1 - own_share[i]) * common_areas[i] + own_share[i] * own_areas[i];
   }
-  return fit;
+  return {count_inside_octants(points, box, own, load8(own_share.data())), area};
 }
 
 /// How far each octant goes by its own box: where it has photons enough (the paper: about 50), and
 /// where it has so few that it cannot be open. The latter by Anscombe's root, a standard normal
 /// deviate if the octant were open.
 Lanes own_shares(const PlanePoints& points) {
+  constexpr float kEnough = 20, kPlenty = 60;            // photons
+  constexpr float kDoubtful = 2.3f, kImpossible = 3.6f;  // deviations
+  constexpr int kNever = 20;  // so few photons are not enough, nor is their absence impossible
+  Lanes shares{};
+  if (points.size() <= kNever) return shares;
   const std::array<int, kSides> counts = octant_counts(points);
+  Float8 count;
+  for (int i = 0; i < kSides; ++i) count[i] = static_cast<float>(counts[i]);
   const float expected = std::sqrt(static_cast<float>(points.size()) / kSides + 0.375f);
-  Lanes shares;
-  for (int i = 0; i < kSides; ++i) {
-    const float count = static_cast<float>(counts[i]);
-    const float missing = 2 * (expected - std::sqrt(count + 0.375f));
-    shares[i] = std::max(smooth_step(20, 60, count), smooth_step(2.3f, 3.6f, missing));
-  }
+  const Float8 missing = 2 * (expected - sqrt8(count + 0.375f));
+  store8(shares.data(),
+         max8(smooth_step(kEnough, kPlenty, count), smooth_step(kDoubtful, kImpossible, missing)));
   return shares;
 }
 
@@ -166,7 +151,7 @@ OctantUse parse_octant_use(const std::string& name) {
 
 float count_inside(const PlanePoints& points, const Lanes& box) {
   Float8 count = {};
-  for (int i = 0; i < points.padded_size(); i += kSides) {
+  for (int i = 0, end = points.padded_size(); i < end; i += kSides) {
     const Float8 x = load8(points.x() + i), y = load8(points.y() + i);
     const Float8 inside = load8(points.inside() + i);
     count += is_within(box, x, y) ? inside : splat8(0);

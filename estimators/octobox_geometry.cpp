@@ -56,62 +56,70 @@ inline Chords chords(Float8 d, Float8 from, Float8 to, float radius) {
   return c;
 }
 
-std::size_t padded_count(int count) {
-  return static_cast<std::size_t>((count + kSides - 1) / kSides) * kSides;
-}
+/// The largest supports so far. Zeros to begin with: the origin's.
+struct Supports {
+  Float8 right{}, upper_right{}, up{}, upper_left{}, left{}, lower_left{}, down{}, lower_right{};
 
-void grow(std::vector<float>& v, int count) {
-  if (v.size() != padded_count(count)) v.resize(padded_count(count));
-}
+  __attribute__((always_inline)) void add(Float8 x, Float8 y) {
+    const Float8 sum = x + y, difference = y - x;
+    right = max8(right, x);
+    upper_right = max8(upper_right, sum);
+    up = max8(up, y);
+    upper_left = max8(upper_left, difference);
+    left = min8(left, x);
+    lower_left = min8(lower_left, sum);
+    down = min8(down, y);
+    lower_right = min8(lower_right, difference);
+  }
+  __attribute__((always_inline)) Lanes box() const {
+    const Float8 most[kSides] = {right, upper_right, up,    upper_left,
+                                 -left, -lower_left, -down, -lower_right};
+    const Float8 scale{1, kSqrtHalf, 1, kSqrtHalf, 1, kSqrtHalf, 1, kSqrtHalf};
+    Lanes box;
+    store8(box.data(), reduce8(most, Max8{}) * scale);
+    return box;
+  }
+};
 
 }  // namespace
 
+void PlanePoints::start(int count) {
+  count_ = count;
+  const std::size_t padded = static_cast<std::size_t>(padded_size());
+  if (x_.size() >= padded) return;
+  for (std::vector<float>* v : {&x_, &y_, &inside_}) v->resize(2 * padded);
+}
+
 void PlanePoints::resize(int count) {
-  count_ = count;
-  for (std::vector<float>* v : {&x_, &y_, &inside_}) grow(*v, count);
-  for (std::size_t i = static_cast<std::size_t>(count); i < x_.size(); ++i) {
-    x_[i] = y_[i] = inside_[i] = 0;
-  }
+  start(count);
+  for (int i = count; i < padded_size(); ++i) x_[i] = y_[i] = inside_[i] = 0;
 }
 
-void PlanePoints::Positions::resize(int count) {
-  for (std::vector<float>* v : {&x, &y, &z, &distance2}) grow(*v, count);
-}
-
-void PlanePoints::project(Positions& positions, int count, Vec3 s, Vec3 t, float inside2) {
-  count_ = count;
-  for (std::vector<float>* v : {&x_, &y_, &inside_}) grow(*v, count);
-  for (std::size_t i = static_cast<std::size_t>(count); i < x_.size(); ++i) {
-    positions.x[i] = positions.y[i] = positions.z[i] = 0;
-    positions.distance2[i] = kInfinity;
+Lanes PlanePoints::turn(Vec2 axis) {
+  float* xs = x_.data();
+  float* ys = y_.data();
+  Supports supports;
+  for (int i = 0, end = padded_size(); i < end; i += kSides) {
+    const Float8 x = load8(xs + i), y = load8(ys + i);
+    const Float8 turned_x = x * axis.x + y * axis.y, turned_y = y * axis.x - x * axis.y;
+    store8(xs + i, turned_x);
+    store8(ys + i, turned_y);
+    supports.add(turned_x, turned_y);
   }
-  for (int i = 0; i < padded_size(); i += kSides) {
-    const Float8 x = load8(&positions.x[i]), y = load8(&positions.y[i]);
-    const Float8 z = load8(&positions.z[i]);
-    store8(&x_[i], x * s.x + y * s.y + z * s.z);
-    store8(&y_[i], x * t.x + y * t.y + z * t.z);
-    store8(&inside_[i], ones8(load8(&positions.distance2[i]) < inside2));
-  }
-}
-
-void PlanePoints::turn(Vec2 axis) {
-  for (int i = 0; i < padded_size(); i += kSides) {
-    const Float8 x = load8(&x_[i]), y = load8(&y_[i]);
-    store8(&x_[i], x * axis.x + y * axis.y);
-    store8(&y_[i], y * axis.x - x * axis.y);
-  }
+  return supports.box();
 }
 
 Vec2 principal_axis(const PlanePoints& points) {
-  Float8 moments[8] = {};  // x, y, xx, xy, yy
-  for (int i = 0; i < points.padded_size(); i += kSides) {
+  Float8 sum_x{}, sum_y{}, sum_xx{}, sum_xy{}, sum_yy{};
+  for (int i = 0, end = points.padded_size(); i < end; i += kSides) {
     const Float8 x = load8(points.x() + i), y = load8(points.y() + i);
-    moments[0] += x;
-    moments[1] += y;
-    moments[2] += x * x;
-    moments[3] += x * y;
-    moments[4] += y * y;
+    sum_x += x;
+    sum_y += y;
+    sum_xx += x * x;
+    sum_xy += x * y;
+    sum_yy += y * y;
   }
+  const Float8 moments[8] = {sum_x, sum_y, sum_xx, sum_xy, sum_yy, {}, {}, {}};
   const Float8 m = reduce8(moments, Add8{});
   const float n = static_cast<float>(points.size());
   const float difference = (m[2] - m[0] * m[0] / n) - (m[4] - m[1] * m[1] / n);
@@ -125,24 +133,11 @@ Vec2 principal_axis(const PlanePoints& points) {
 }
 
 Lanes octobox_with_origin(const PlanePoints& points) {
-  Float8 most[kSides] = {};
-  for (int i = 0; i < points.padded_size(); i += kSides) {
-    const Float8 x = load8(points.x() + i), y = load8(points.y() + i);
-    const Float8 sum = x + y, difference = y - x;
-    most[0] = max8(most[0], x);
-    most[1] = max8(most[1], sum);
-    most[2] = max8(most[2], y);
-    most[3] = max8(most[3], difference);
-    most[4] = min8(most[4], x);
-    most[5] = min8(most[5], sum);
-    most[6] = min8(most[6], y);
-    most[7] = min8(most[7], difference);
+  Supports supports;
+  for (int i = 0, end = points.padded_size(); i < end; i += kSides) {
+    supports.add(load8(points.x() + i), load8(points.y() + i));
   }
-  for (int k = 4; k < kSides; ++k) most[k] = -most[k];
-  const Float8 scale{1, kSqrtHalf, 1, kSqrtHalf, 1, kSqrtHalf, 1, kSqrtHalf};
-  Lanes box;
-  store8(box.data(), reduce8(most, Max8{}) * scale);
-  return box;
+  return supports.box();
 }
 
 Lanes octobox(const PlanePoints& points) {
@@ -167,6 +162,16 @@ float octobox_area(const Lanes& box) {
   return std::max(width * height - corners, 0.0f);
 }
 
+float octobox_area_at_least(const Lanes& box, float radius) {
+  const Float8 d = load8(box.data());
+  const Float8 next = __builtin_shufflevector(d, d, 1, 2, 3, 4, 5, 6, 7, 0);
+  const Float8 previous = __builtin_shufflevector(d, d, 7, 0, 1, 2, 3, 4, 5, 6);
+  const Float8 half = sqrt8(max8(radius * radius - d * d, splat8(0)));
+  const Float8 first = min8(max8(d - kSqrt2 * previous, -half), half);
+  const Float8 last = min8(max8(kSqrt2 * next - d, -half), half);
+  return sum8(d * (last - first)) / 2;
+}
+
 float octobox_area(const Lanes& box, float radius) {
   const Float8 d = load8(box.data());
   const Float8 next = __builtin_shufflevector(d, d, 1, 2, 3, 4, 5, 6, 7, 0);
@@ -182,22 +187,23 @@ float octobox_area(const Lanes& box, float radius) {
 
 std::array<int, kSides> octant_counts(const PlanePoints& points) {
   // Numbers of points that are left, below, steep, and all combinations; from them the octants.
-  Float8 sums[8] = {};
-  for (int i = 0; i < points.padded_size(); i += kSides) {
+  // A mask that is set is the integer -1.
+  Mask8 lefts{}, belows{}, steeps{}, left_belows{}, left_steeps{}, below_steeps{}, alls{};
+  for (int i = 0, end = points.padded_size(); i < end; i += kSides) {
     const Float8 x = load8(points.x() + i), y = load8(points.y() + i);
-    const Float8 left = ones8(x < 0), below = ones8(y < 0), steep = ones8(abs8(y) > abs8(x));
-    sums[0] += left;
-    sums[1] += below;
-    sums[2] += steep;
-    sums[3] += left * below;
-    sums[4] += left * steep;
-    sums[5] += below * steep;
-    sums[6] += left * below * steep;
+    const Mask8 left = x < 0, below = y<0, steep = abs8(y)> abs8(x);
+    lefts -= left;
+    belows -= below;
+    steeps -= steep;
+    left_belows -= left & below;
+    left_steeps -= left & steep;
+    below_steeps -= below & steep;
+    alls -= left & below & steep;
   }
-  const Float8 s = reduce8(sums, Add8{});
-  const auto number = [&](int k) { return static_cast<int>(s[k]); };
-  const int left = number(0), below = number(1), steep = number(2), left_below = number(3);
-  const int left_steep = number(4), below_steep = number(5), all = number(6);
+  const Mask8 sums[8] = {lefts, belows, steeps, left_belows, left_steeps, below_steeps, alls, {}};
+  const Mask8 s = reduce8(sums, Add8{});
+  const int left = s[0], below = s[1], steep = s[2], left_below = s[3];
+  const int left_steep = s[4], below_steep = s[5], all = s[6];
   const int right_above = points.size() - left - below + left_below;
   const int right_above_steep = steep - left_steep - below_steep + all;
   return {right_above - right_above_steep,

@@ -7,6 +7,9 @@
 
 namespace octolux {
 
+/// All photons of the look-up, and in the same go the flat estimate, radial_sum(FlatKernel).
+Estimate sum_and_project(const GatherPoint& at, const PhotonMap& map, const Disc& disc,
+                         PlanePoints& points);
 /// All photons of the look-up.
 void project_photons(const GatherPoint& at, const PhotonMap& map, const Disc& disc,
                      PlanePoints& points);

@@ -8,6 +8,7 @@
 
 #include "estimators/disc_search.h"
 #include "estimators/flux_sum.h"
+#include "estimators/photon_group.h"
 
 namespace octolux {
 
@@ -23,17 +24,24 @@ inline Rgb in_range(Rgb c) {
   return {std::min(c.r, kMost), std::min(c.g, kMost), std::min(c.b, kMost)};
 }
 
+/// Sum of flux over the disc's area, where f is constant.
+inline Estimate flat_estimate(Rgb flux, int count, const Disc& disc, Rgb reflectance) {
+  const Rgb scale = reflectance * (kInvPi * kInvPi);
+  return {in_range(flux * scale * (1 / disc.h2)), std::sqrt(disc.h2), kPi * disc.h2, count};
+}
+
 /// The same for every kernel that does not weigh photons, where f is constant.
 inline Estimate flat_sum(const PhotonMap& map, const Disc& disc, Rgb reflectance) {
   FluxSum sum;
-  int count = 0;
-  for (const Neighbour& near : disc.photons) {
-    if (!(near.distance2 < disc.h2)) continue;
-    sum.add(map.payload(near.photon).flux);
-    ++count;
+  Mask8 count{};
+  for (std::size_t i = 0; i < disc.photons.size(); i += 8) {
+    const PhotonGroup group = photon_group(disc.photons, i);
+    const Mask8 inside = group.distance2 < disc.h2;
+    sum.add(group.fluxes(map, 0, inside));
+    sum.add(group.fluxes(map, 1, inside));
+    count -= inside;
   }
-  const Rgb scale = reflectance * (kInvPi * kInvPi);
-  return {in_range(sum.total() * scale * (1 / disc.h2)), std::sqrt(disc.h2), kPi * disc.h2, count};
+  return flat_estimate(sum.total(), sum8(count), disc, reflectance);
 }
 
 /// The sum over a disc's photons: one sum of flux where f is constant, one call of f per photon

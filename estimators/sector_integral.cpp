@@ -41,7 +41,7 @@ void clip(Polygon& polygon, Point a, double c) {
   bool cuts = false;
   for (int i = 0; i < polygon.count; ++i) {
     outside[i] = dot(a, polygon.corners[i]) - c;
-    cuts = cuts || outside[i] > 0;
+    cuts |= outside[i] > 0;
   }
   if (!cuts) return;
   Polygon rest;
@@ -53,7 +53,8 @@ void clip(Polygon& polygon, Point a, double c) {
       rest.add(mix(polygon.corners[i], polygon.corners[next], dp / (dp - dq)));
     }
   }
-  polygon = rest;
+  polygon.count = rest.count;
+  std::copy_n(rest.corners.begin(), rest.count, polygon.corners.begin());
 }
 
 /// Between the origin and the segment p q, which is inside the unit disc.
@@ -73,11 +74,14 @@ double between(Point p, Point q, double taper) {
   if (!(a > 0)) return 0;
   const double root = b * b - a * c;
   if (!(root > 0)) return arc(p, q, taper);
-  const double enter = std::clamp((-b - std::sqrt(root)) / a, 0.0, 1.0);
-  const double leave = std::clamp((-b + std::sqrt(root)) / a, 0.0, 1.0);
+  const double half = std::sqrt(root);
+  const double enter = std::clamp((-b - half) / a, 0.0, 1.0);
+  const double leave = std::clamp((-b + half) / a, 0.0, 1.0);
   if (!(enter < leave)) return arc(p, q, taper);
   const Point in = mix(p, q, enter), out = mix(p, q, leave);
-  return arc(p, in, taper) + triangle(in, out, taper) + arc(out, q, taper);
+  const double before = enter > 0 ? arc(p, in, taper) : 0;
+  const double after = leave < 1 ? arc(out, q, taper) : 0;
+  return before + triangle(in, out, taper) + after;
 }
 
 /// The sector in units of `unit`, cut off outside the unit disc by the tangent in its middle.
@@ -112,9 +116,9 @@ double sector_integral(const PhotonRegion::Sector& sector, int index, float h, f
                        std::span<const HalfPlane> also) {
   OCTOLUX_CHECK(also.size() <= kMaxExtraLines);
   const Polygon polygon = polygon_of(sector, index, h, also);
-  double sum = 0;
-  for (int i = 0; i < polygon.count; ++i) {
-    sum += between(polygon.corners[i], polygon.corners[(i + 1) % polygon.count], taper);
+  double sum = 0;  // the first corner is the origin, and bounds nothing with its neighbours
+  for (int i = 1; i + 1 < polygon.count; ++i) {
+    sum += between(polygon.corners[i], polygon.corners[i + 1], taper);
   }
   return sum * h * h;
 }

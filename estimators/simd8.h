@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <cstring>
+#ifdef __AVX2__
+#include <immintrin.h>
+#endif
 
 // Inlined always: how vectors are passed between functions depends on the processor's vectors.
 #define OCTOLUX_INLINE __attribute__((always_inline)) inline
@@ -11,12 +14,24 @@
 namespace octolux {
 
 using Float8 __attribute__((vector_size(32))) = float;
-using Mask8 __attribute__((vector_size(32))) = int;  // all bits set, or none
+using Mask8 __attribute__((vector_size(32))) = int;  // all bits set, or none; or integers
+using Float4 __attribute__((vector_size(16))) = float;
+using Int4 __attribute__((vector_size(16))) = int;
+using Double4 __attribute__((vector_size(32))) = double;
+using Long4 __attribute__((vector_size(32))) = unsigned long long;
 
-OCTOLUX_INLINE Float8 load8(const float* p) {
+OCTOLUX_INLINE Float8 load8(const void* p) {
   Float8 v;
   std::memcpy(&v, p, sizeof(v));
   return v;
+}
+/// The same bits as another type.
+template <class To, class From>
+OCTOLUX_INLINE To reinterpret_as(From v) {
+  To r;
+  static_assert(sizeof(r) == sizeof(v));
+  std::memcpy(&r, &v, sizeof(r));
+  return r;
 }
 OCTOLUX_INLINE void store8(float* p, Float8 v) { std::memcpy(p, &v, sizeof(v)); }
 OCTOLUX_INLINE Float8 splat8(float x) { return Float8{x, x, x, x, x, x, x, x}; }
@@ -32,28 +47,85 @@ OCTOLUX_INLINE Float8 sqrt8(Float8 a) {
 /// 1 where the mask is set, else 0.
 OCTOLUX_INLINE Float8 ones8(Mask8 m) { return m ? splat8(1) : splat8(0); }
 
-OCTOLUX_INLINE float sum8(Float8 v) {
+template <class V>
+OCTOLUX_INLINE auto sum8(V v) {
   return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]));
 }
 
+/// table[index[j]] in lane j; indices are 0 to 7.
+OCTOLUX_INLINE Float8 lookup8(Float8 table, Mask8 index) {
+#ifdef __AVX2__
+  return _mm256_permutevar8x32_ps(table, reinterpret_as<__m256i>(index));
+#else
+  Float8 r;
+  for (int j = 0; j < 8; ++j) r[j] = table[index[j]];
+  return r;
+#endif
+}
+
+/// base[index[j]] in lane j; indices are below 2^31.
+OCTOLUX_INLINE Float8 gather8(const float* base, Mask8 index) {
+#ifdef __AVX2__
+  return _mm256_i32gather_ps(base, reinterpret_as<__m256i>(index), 4);
+#else
+  Float8 r;
+  for (int j = 0; j < 8; ++j) r[j] = base[index[j]];
+  return r;
+#endif
+}
+/// The same of 64 bits each; `base` is aligned to them.
+OCTOLUX_INLINE Long4 gather4(const void* base, Int4 index) {
+#ifdef __AVX2__
+  const auto* words = static_cast<const long long*>(base);
+  return reinterpret_as<Long4>(_mm256_i32gather_epi64(words, reinterpret_as<__m128i>(index), 8));
+#else
+  Long4 r;
+  for (int j = 0; j < 4; ++j) {
+    unsigned long long word;
+    std::memcpy(&word, static_cast<const char*>(base) + std::size_t{8} * index[j], sizeof(word));
+    r[j] = word;
+  }
+  return r;
+#endif
+}
+
+/// out[j] = {a[j], b[j], c[j], d[j]}.
+OCTOLUX_INLINE void transpose8(Float8 a, Float8 b, Float8 c, Float8 d, Float4 (&out)[8]) {
+  const Float8 ab_low = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
+  const Float8 ab_high = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
+  const Float8 cd_low = __builtin_shufflevector(c, d, 0, 8, 1, 9, 4, 12, 5, 13);
+  const Float8 cd_high = __builtin_shufflevector(c, d, 2, 10, 3, 11, 6, 14, 7, 15);
+  const Float8 pairs[4] = {__builtin_shufflevector(ab_low, cd_low, 0, 1, 8, 9, 4, 5, 12, 13),
+                           __builtin_shufflevector(ab_low, cd_low, 2, 3, 10, 11, 6, 7, 14, 15),
+                           __builtin_shufflevector(ab_high, cd_high, 0, 1, 8, 9, 4, 5, 12, 13),
+                           __builtin_shufflevector(ab_high, cd_high, 2, 3, 10, 11, 6, 7, 14, 15)};
+  for (int j = 0; j < 4; ++j) {
+    out[j] = __builtin_shufflevector(pairs[j], pairs[j], 0, 1, 2, 3);
+    out[j + 4] = __builtin_shufflevector(pairs[j], pairs[j], 4, 5, 6, 7);
+  }
+}
+
 struct Add8 {
-  __attribute__((always_inline)) Float8 operator()(Float8 a, Float8 b) const { return a + b; }
+  template <class V>
+  __attribute__((always_inline)) V operator()(V a, V b) const {
+    return a + b;
+  }
 };
 struct Max8 {
   __attribute__((always_inline)) Float8 operator()(Float8 a, Float8 b) const { return max8(a, b); }
 };
 
 /// [sum of v0, ..., sum of v7] with `combine` for the sum (Add8 or Max8), in a fixed order.
-template <class Combine>
-OCTOLUX_INLINE Float8 reduce8(const Float8 (&v)[8], Combine combine) {
-  Float8 pairs[4], quads[2];
+template <class V, class Combine>
+OCTOLUX_INLINE V reduce8(const V (&v)[8], Combine combine) {
+  V pairs[4], quads[2];
   for (int i = 0; i < 4; ++i) {
-    const Float8 a = v[2 * i], b = v[2 * i + 1];
+    const V a = v[2 * i], b = v[2 * i + 1];
     pairs[i] = combine(__builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14),
                        __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15));
   }
   for (int i = 0; i < 2; ++i) {
-    const Float8 a = pairs[2 * i], b = pairs[2 * i + 1];
+    const V a = pairs[2 * i], b = pairs[2 * i + 1];
     quads[i] = combine(__builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13),
                        __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15));
   }

@@ -1,6 +1,9 @@
 // Instances against the same shapes moved and standing in the world themselves.
 #include <gtest/gtest.h>
 
+#include <map>
+#include <set>
+
 #include "accel/ray_caster.h"
 #include "core/frame.h"
 #include "core/rng.h"
@@ -152,6 +155,56 @@ TEST(Instances, TrianglesAreInTheWorld) {
   }
   EXPECT_GT(triangles, 100);
   EXPECT_FALSE(instanced.triangle(last, 0));
+}
+
+/// What visit_near shows, by number and primitive; how far it looks does not change.
+std::map<std::uint64_t, NearPrimitive> near(const RayCaster& caster, Vec3 p, float radius) {
+  struct Shown {
+    float radius;
+    std::map<std::uint64_t, NearPrimitive> all;
+  } shown{radius, {}};
+  const auto note = [](void* to, const NearPrimitive& primitive) {
+    static_cast<Shown*>(to)->all[primitive.id] = primitive;
+    return static_cast<Shown*>(to)->radius;
+  };
+  caster.visit_near(p, radius, note, &shown);
+  return shown.all;
+}
+
+/// Does one of many points of it come nearer to p than `radius`?
+bool reaches(const NearPrimitive& near, Vec3 p, float radius) {
+  if (!near.triangle) return false;  // bounds are those of the group's space
+  constexpr int kSteps = 16;
+  const auto& [a, b, c] = near.corners;
+  for (int i = 0; i <= kSteps; ++i) {
+    for (int k = 0; i + k <= kSteps; ++k) {
+      const float u = static_cast<float>(i) / kSteps, v = static_cast<float>(k) / kSteps;
+      if (length(a + (b - a) * u + (c - a) * v - p) < radius - kTolerance) return true;
+    }
+  }
+  return false;
+}
+
+TEST(Instances, AreNearPointsToo) {
+  Rng rng = rng_of(5);
+  const Pair pair(rng);
+  const RayCaster instanced(pair.shapes, pair.instances), flat(pair.flat);
+  int found = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 p = random_in_ball(rng, 5);
+    const float radius = 0.8f * rng.uniform();
+    std::set<std::uint64_t> numbers;
+    for (const auto& [id, primitive] : near(instanced, p, radius)) {
+      const auto number = static_cast<std::uint32_t>(id >> 32);
+      numbers.insert(std::uint64_t{pair.flat_number(number)} << 32 | (id & 0xffffffff));
+    }
+    for (const auto& [id, primitive] : near(flat, p, radius)) {
+      if (!reaches(primitive, p, radius)) continue;
+      ++found;
+      EXPECT_TRUE(numbers.count(id));
+    }
+  }
+  EXPECT_GT(found, 300);
 }
 
 // As SpawnedRays.NeverHitTheirOwnPlane, but the plane stands in a group.

@@ -83,16 +83,18 @@ double LabWorld::irradiance(Point2 p, bool& near) const {
 }
 
 Vec3 LabWorld::viewer() const {
-  constexpr int kSamples = 1000;
-  Point2 mean{0, 0};
+  constexpr int kSamples = 10000;
+  Point2 sum{0, 0};
+  int count = 0;
   for (int i = 0; i < kSamples; ++i) {  // Vogel's spiral covers the disc evenly
     const double radius = std::sqrt((i + 0.5) / kSamples), angle = 2.399963229728653 * i;
     const Point2 p{radius * std::cos(angle), radius * std::sin(angle)};
     bool near = false;
     irradiance(p, near);
-    if (near) mean.x += p.x / kSamples, mean.y += p.y / kSamples;
+    if (near) sum.x += p.x, sum.y += p.y, ++count;
   }
-  return normalize(turned(mean.x, mean.y, 1));
+  const double scale = 1.0 / std::max(count, 1);
+  return normalize(turned(sum.x * scale, sum.y * scale, 1));
 }
 
 Photon LabWorld::photon_on_floor(Point2 p, double flux) const {
