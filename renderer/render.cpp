@@ -84,8 +84,9 @@ GatherRecords make_records(const Job& job, const RadianceMap& map, PassKey key,
   const RenderConfig& config = job.config;
   if (!config.eye.gather || !(config.eye.reuse > 0)) return {};
   Stopwatch watch;
-  const PhotonPass traced = trace_photons(job.scene, job.lights, PhotonKind::record,
-                                          record_paths(config, map.bandwidth()), key);
+  const PhotonPass traced =
+      trace_photons(job.scene, {job.lights, job.aim.global}, PhotonKind::record,
+                    record_paths(config, map.bandwidth()), key);
   progress.rays += traced.rays;
   progress.timing.photons += watch.lap();
   RecordConfig records;
