@@ -6,6 +6,7 @@
 
 #include "core/bsdf_makers.h"
 #include "core/rng.h"
+#include "estimators/clearance.h"
 
 namespace octolux {
 
@@ -22,6 +23,7 @@ GatherRecords::GatherRecords(RecordSites sites, const RadianceMap& map, const Ra
       white_(make_diffuse(Color(Rgb(1)))),
       sites_(std::move(sites)),
       white_radiance_(sites_.size() * kDepths),
+      free_(config.must_see ? sites_.size() : 0),
       surroundings_(sites_.size()) {
   for (std::uint32_t i = 0; i < map.photons().size(); ++i) {
     longest_ = std::max(longest_, segments(map.photons().payload(i)));
@@ -42,9 +44,18 @@ int GatherRecords::depth_index(int max_segments) const {
   return std::min(config_.max_segments, longest_) - std::min(max_segments, longest_);
 }
 
-bool GatherRecords::sees(const SurfacePoint& from, Vec3 normal, const SurfacePoint& to) const {
-  return !caster_->occluded(
-      connecting_ray({from.position, normal, from.error}, {to.position, to.ng, to.error}));
+/// Mostly known without a ray: nothing at all is in the way so near to the record.
+bool GatherRecords::sees(std::uint32_t record, const SurfacePoint& point, Vec3 normal) const {
+  const SurfacePoint there = sites_.point(record);
+  const float free = free_.get(record, [&] {
+    FeelerQuery query{.point = there, .normal = there.ng, .wo = there.ng, .edges = false};
+    query.length = sites_.reach(record);
+    return free_distance(*caster_, query, query.length, 0);
+  });
+  const Vec3 across = point.position - there.position;
+  if (dot(across, across) < free * free) return true;
+  return !caster_->occluded(connecting_ray({point.position, normal, point.error},
+                                           {there.position, there.ng, there.error}));
 }
 
 std::optional<Rgb> GatherRecords::white_radiance(const GatherPoint& at) const {
@@ -54,7 +65,7 @@ std::optional<Rgb> GatherRecords::white_radiance(const GatherPoint& at) const {
   const PhotonQuery query = photon_query(at, map_->bandwidth());
   const std::optional<std::uint32_t> record = sites_.find(query, at.at.facing_shading_normal());
   if (!record) return std::nullopt;
-  if (config_.must_see && !sees(at.at.point(), query.normal, sites_.point(*record))) {
+  if (config_.must_see && !sees(*record, at.at.point(), query.normal)) {
     return std::nullopt;
   }
   return white_radiance_.get(std::size_t{*record} * kDepths + depth, [&] {

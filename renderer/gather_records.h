@@ -52,7 +52,7 @@ class GatherRecords {
   static constexpr int kDepths = 4;
 
   int depth_index(int max_segments) const;
-  bool sees(const SurfacePoint& from, Vec3 normal, const SurfacePoint& to) const;
+  bool sees(std::uint32_t record, const SurfacePoint& point, Vec3 normal) const;
   template <class Use>
   auto at_record(std::uint32_t record, int max_segments, const Use& use) const;
 
@@ -63,6 +63,7 @@ class GatherRecords {
   std::unique_ptr<Bsdf> white_;
   RecordSites sites_;
   LazyValues<Rgb> white_radiance_;  // kDepths per record
+  LazyValues<float> free_;          // [m] around a record nothing is in the way
   LazyObjects<Surroundings> surroundings_;
 };
 

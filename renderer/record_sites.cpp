@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "core/constants.h"
 #include "core/vec3d.h"
@@ -99,6 +100,10 @@ std::optional<std::uint32_t> RecordSites::find(const PhotonQuery& query,
   }
   if (best == kNone || !(limit < reach2_[best / kBlockSize])) return std::nullopt;
   return best;
+}
+
+float RecordSites::reach(std::uint32_t record) const {
+  return std::sqrt(reach2_[record / kBlockSize]);
 }
 
 SurfacePoint RecordSites::point(std::uint32_t record) const {

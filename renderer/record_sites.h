@@ -33,6 +33,8 @@ class RecordSites {
   /// The record that serves a query: the nearest in its squashed metric on a surface that faces the
   /// same way, shading normals included, if it is near enough.
   std::optional<std::uint32_t> find(const PhotonQuery& query, Vec3 shading_normal) const;
+  /// How far it serves [m].
+  float reach(std::uint32_t record) const;
   /// The surface at a record, its front side where the light came from.
   SurfacePoint point(std::uint32_t record) const;
 
