@@ -122,10 +122,12 @@ double Film::relative_error() const {
 struct Film::Tally {
   std::int64_t passes = 0, non_finite = 0;
   Place first_non_finite;
+  std::int32_t unused = 0;  // instead of padding: equal films have equal bytes
 };
 
 std::string Film::to_bytes() const {
   static_assert(std::is_trivially_copyable_v<Pixel> && std::is_trivially_copyable_v<Tally>);
+  static_assert(sizeof(Tally) == 2 * sizeof(std::int64_t) + sizeof(Place) + sizeof(std::int32_t));
   const Tally tally{passes_, non_finite_, first_non_finite_};
   std::string bytes(sizeof tally + pixels_.size() * sizeof(Pixel), '\0');
   std::memcpy(bytes.data(), &tally, sizeof tally);
