@@ -12,7 +12,6 @@
 namespace octolux {
 
 using FacingSet = std::uint32_t;
-inline constexpr FacingSet kAnyFacing = ~FacingSet{0};
 
 /// The one class of a surface with this unit normal.
 FacingSet facing(Vec3 normal);

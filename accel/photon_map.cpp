@@ -13,6 +13,7 @@
 #include <numeric>
 #include <utility>
 
+#include "accel/block_distances.h"
 #include "accel/photon_filter.h"
 #include "core/check.h"
 #include "core/parallel.h"
@@ -22,11 +23,6 @@ namespace {
 
 constexpr std::int64_t kChunk = 16384;
 constexpr int kSelectionSteps = 10;
-
-bool is_usable(const Photon& p) {
-  return is_finite(p.position) && is_finite(p.wi) && is_finite(p.normal) && is_finite(p.flux) &&
-         p.flux.r >= 0 && p.flux.g >= 0 && p.flux.b >= 0;
-}
 
 /// The usable photons in their given order, for the tree to sort. Payloads are packed before they
 /// are put into the tree's order, because they are half as long then.
@@ -59,31 +55,6 @@ struct Usable {
   }
 };
 
-/// Squared distances of a block's photons, in the squashed metric.
-struct BlockDistances {
-  alignas(64) float distance2[PhotonTree::kBlockSize];
-
-  BlockDistances(const PhotonTree::Block& block, const PhotonQuery& query, float squash) {
-    const Vec3 p = query.position;
-    const Vec3 n = query.normal;
-    for (std::uint32_t i = 0; i < PhotonTree::kBlockSize; ++i) {
-      const float dx = block.x[i] - p.x;
-      const float dy = block.y[i] - p.y;
-      const float dz = block.z[i] - p.z;
-      const float along = dx * n.x + dy * n.y + dz * n.z;
-      distance2[i] = dx * dx + dy * dy + dz * dz + squash * (along * along);
-    }
-  }
-  /// A bit for each lane.
-  std::uint32_t nearer_than(float limit) const {
-    std::uint32_t lanes = 0;
-    for (std::uint32_t i = 0; i < PhotonTree::kBlockSize; ++i) {
-      lanes |= static_cast<std::uint32_t>(distance2[i] < limit) << i;
-    }
-    return lanes;
-  }
-};
-
 /// Where a look-up may find photons. Decided at compile time, so a look-up without a region pays
 /// nothing for those with one.
 struct Anywhere {
@@ -96,11 +67,6 @@ struct Inside {
     return distance2 < region.clearance * region.clearance || region.contains(photon - position);
   }
 };
-
-float squash_factor(const PhotonQuery& query) {
-  OCTOLUX_CHECK(query.squash >= 1);
-  return query.squash * query.squash - 1;
-}
 
 FacingSet wanted_facing(const PhotonQuery& query) {
   const FacingSet front = facing_near(query.normal);
@@ -175,12 +141,14 @@ std::size_t PhotonMap::memory() const {
 
 std::span<const Neighbour> PhotonMap::nearest(const PhotonQuery& query, std::size_t k,
                                               NeighbourBuffer& buffer) const {
+  OCTOLUX_CHECK(query.squash >= 1);
   if (query.region == nullptr) return nearest_in(Anywhere{}, query, k, buffer);
   return nearest_in(Inside{*query.region, query.position}, query, k, buffer);
 }
 
 std::span<const Neighbour> PhotonMap::within(const PhotonQuery& query,
                                              NeighbourBuffer& buffer) const {
+  OCTOLUX_CHECK(query.squash >= 1);
   if (query.region == nullptr) return within_in(Anywhere{}, query, buffer);
   return within_in(Inside{*query.region, query.position}, query, buffer);
 }
@@ -217,7 +185,6 @@ std::span<const Neighbour> PhotonMap::nearest_in(Region region, const PhotonQuer
     buffer.items.resize(full + PhotonTree::kBlockSize);
   }
   Neighbour* items = buffer.items.data();
-  const float squash = squash_factor(query);
   PhotonFilter counts(query);
   PhotonTreeWalk walk(tree_, query.position, wanted_facing(query));
   float limit = query.max_radius * query.max_radius;
@@ -225,7 +192,7 @@ std::span<const Neighbour> PhotonMap::nearest_in(Region region, const PhotonQuer
   for (;;) {
     const std::uint32_t b = walk.next<PhotonTreeWalk::Order::nearest_first>(limit);
     if (b == PhotonTreeWalk::kEnd) break;
-    const BlockDistances block(tree_.block(b), query, squash);
+    const BlockDistances block(tree_.block(b), query);
     for (std::uint32_t near = block.nearer_than(limit); near != 0; near &= near - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(near));
       const std::uint32_t photon = b * PhotonTree::kBlockSize + lane;
@@ -249,7 +216,6 @@ std::span<const Neighbour> PhotonMap::nearest_in(Region region, const PhotonQuer
 template <class Region>
 std::span<const Neighbour> PhotonMap::within_in(Region region, const PhotonQuery& query,
                                                 NeighbourBuffer& buffer) const {
-  const float squash = squash_factor(query);
   const float limit = query.max_radius * query.max_radius;
   PhotonFilter counts(query);
   PhotonTreeWalk walk(tree_, query.position, wanted_facing(query));
@@ -257,7 +223,7 @@ std::span<const Neighbour> PhotonMap::within_in(Region region, const PhotonQuery
   for (;;) {
     const std::uint32_t b = walk.next<PhotonTreeWalk::Order::left_to_right>(limit);
     if (b == PhotonTreeWalk::kEnd) break;
-    const BlockDistances block(tree_.block(b), query, squash);
+    const BlockDistances block(tree_.block(b), query);
     for (std::uint32_t near = block.nearer_than(limit); near != 0; near &= near - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(near));
       const std::uint32_t photon = b * PhotonTree::kBlockSize + lane;

@@ -93,7 +93,7 @@ class PhotonTreeWalk {
   static constexpr std::uint32_t kEnd = ~0u;
 
   /// Passes over branches with no photon on a surface that faces one of these ways.
-  PhotonTreeWalk(const PhotonTree& tree, Vec3 position, FacingSet facing = kAnyFacing)
+  PhotonTreeWalk(const PhotonTree& tree, Vec3 position, FacingSet facing)
       : tree_(tree), position_{position.x, position.y, position.z}, facing_(facing) {
     if (tree.leaf_count() > 0) stack_[size_++] = {1, 0, {0, 0, 0}};
   }

@@ -58,7 +58,7 @@ class Light {
   /// Emitted power [W]. Infinite lights: power through the scene's bounding sphere.
   virtual Rgb power() const = 0;
 
-  /// Empty for a light infinitely far away, and for one that nothing is known about.
+  /// Empty for a light infinitely far away.
   virtual std::optional<LightExtent> extent() const { return std::nullopt; }
 
   /// Called once when the scene is complete, before anything is emitted or power() asked.

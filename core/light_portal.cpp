@@ -48,12 +48,6 @@ double Portals::line_density(Vec3 position, Vec3 direction, int triangle) const 
   return shadows / area();
 }
 
-bool is_infinite(const Light& light) {
-  if (dynamic_cast<const EnvironmentLight*>(&light)) return true;
-  const std::optional<LightSample> s = light.sample({0, 0, 0}, {0.5f, 0.5f});
-  return s && s->infinite;
-}
-
 namespace {
 
 /// A light as it was, but for its photons.

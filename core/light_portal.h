@@ -45,9 +45,6 @@ class Portals {
 /// Share of an infinite light's photons that are aimed at portals.
 inline constexpr float kPortalShare = 0.5f;
 
-/// Is it infinitely far away?
-bool is_infinite(const Light& light);
-
 /// The same infinite light, its photons aimed at `portals`, which must outlive it.
 std::unique_ptr<Light> aim_at_portals(std::unique_ptr<Light> light, const Portals& portals);
 

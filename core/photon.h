@@ -22,6 +22,12 @@ struct Photon {
   Vec3 ns{};        // shading normal on the side of `normal`
 };
 
+/// Finite, and of no negative flux?
+inline bool is_usable(const Photon& p) {
+  return is_finite(p.position) && is_finite(p.wi) && is_finite(p.normal) && is_finite(p.flux) &&
+         p.flux.r >= 0 && p.flux.g >= 0 && p.flux.b >= 0;
+}
+
 /// Everything but the position. flux: three 18-bit mantissas with a shared exponent (relative
 /// precision 4e-6 of the largest channel, exact under powers of two). wi: octahedral 2 x 16 bits
 /// (Cigolle et al., JCGT 3(2), 2014); normal: octahedral 2 x 12 bits; segments: 8 bits.

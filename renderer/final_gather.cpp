@@ -57,11 +57,12 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
     if (!around) around = &(own = survey(maps_.global, point, config_.estimator.neighbours));
     next.read_distance = static_cast<float>(config_.eye.retrace) * around->bandwidth;
   }
+  const Receiver from = receiver(at);
   const GatherDirections directions(at, around->guide, level.rays, tracer.rng);
   for (int i = 0; i < level.rays; ++i) {
     const std::optional<GatherDirection> chosen = directions.draw(i, tracer.rng);
     if (!chosen) continue;
-    const Arrival arrival{receiver(at), chosen->bsdf_pdf_w, level.rays, light_samples_};
+    const Arrival arrival{from, chosen->bsdf_pdf_w, level.rays, light_samples_};
     out.indirect += chosen->weight * follow(tracer, at.spawn(chosen->wi), next, arrival);
   }
   return out;

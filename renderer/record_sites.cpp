@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "accel/block_distances.h"
 #include "core/constants.h"
 #include "core/vec3d.h"
 
@@ -35,39 +36,32 @@ float area_per_site(const PhotonTree::Block& block) {
   return static_cast<float>(3 * 2 * variance / count);
 }
 
-/// Squared distances of a block's sites in the query's squashed metric.
-void distances2(const PhotonTree::Block& block, const PhotonQuery& query, float* out) {
-  const Vec3 p = query.position;
-  const Vec3 n = query.normal;
-  const float squash = query.squash * query.squash - 1;
-  for (std::uint32_t i = 0; i < kBlockSize; ++i) {
-    const float dx = block.x[i] - p.x;
-    const float dy = block.y[i] - p.y;
-    const float dz = block.z[i] - p.z;
-    const float along = dx * n.x + dy * n.y + dz * n.z;
-    out[i] = dx * dx + dy * dy + dz * dz + squash * (along * along);
-  }
-}
-
 }  // namespace
+
+std::int64_t record_paths(std::int64_t photons, const Bandwidth& bandwidth) {
+  constexpr double kShare = 0.2;  // of the photons, where the bandwidth is not yet shrunk
+  const double share = std::min(1.0, kShare / (bandwidth.shrink * bandwidth.shrink));
+  return static_cast<std::int64_t>(share * static_cast<double>(photons));
+}
 
 RecordSites::RecordSites(const std::vector<Photon>& photons, const Bandwidth& bandwidth,
                          int neighbours, double reuse) {
-  std::vector<PhotonTree::Item> items(photons.size());
-  std::vector<FacingSet> facing(photons.size());
-  for (std::size_t i = 0; i < photons.size(); ++i) {
-    items[i] = {photons[i].position, static_cast<std::uint32_t>(i)};
-    facing[i] = octolux::facing(photons[i].normal);
+  std::vector<PhotonTree::Item> items;
+  std::vector<FacingSet> facing;
+  for (const Photon& photon : photons) {
+    const auto index = static_cast<std::uint32_t>(facing.size());
+    facing.push_back(octolux::facing(photon.normal));
+    if (is_usable(photon)) items.push_back({photon.position, index});
   }
   tree_ = PhotonTree(items, facing);
-  sites_.reserve(photons.size());
+  sites_.reserve(items.size());
   for (const PhotonTree::Item& item : items) {
     const Photon& photon = photons[item.index];
     sites_.push_back({photon.normal, photon.ns, photon.error});
   }
   const float share = static_cast<float>(reuse) * bandwidth.shrink;
   max_reach2_ = share * share * bandwidth.max_radius * bandwidth.max_radius;
-  const auto blocks = static_cast<std::uint32_t>((photons.size() + kBlockSize - 1) / kBlockSize);
+  const auto blocks = static_cast<std::uint32_t>((sites_.size() + kBlockSize - 1) / kBlockSize);
   for (std::uint32_t b = 0; b < blocks; ++b) {
     const float disc = area_per_site(tree_.block(b)) * static_cast<float>(neighbours);
     reach2_.push_back(std::min(max_reach2_, share * share * disc * kInvPi));
@@ -82,19 +76,14 @@ std::optional<std::uint32_t> RecordSites::find(const PhotonQuery& query,
   for (;;) {
     const std::uint32_t b = walk.next<PhotonTreeWalk::Order::nearest_first>(limit);
     if (b == kNone) break;
-    alignas(64) float distance2[kBlockSize];
-    distances2(tree_.block(b), query, distance2);
-    std::uint32_t near = 0;
-    for (std::uint32_t i = 0; i < kBlockSize; ++i) {
-      near |= static_cast<std::uint32_t>(distance2[i] < limit) << i;
-    }
-    for (; near != 0; near &= near - 1) {
+    const BlockDistances block(tree_.block(b), query);
+    for (std::uint32_t near = block.nearer_than(limit); near != 0; near &= near - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(near));
       const std::uint32_t site = b * kBlockSize + lane;
-      if (!(distance2[lane] < limit)) continue;
+      if (!(block.distance2[lane] < limit)) continue;
       if (!(dot(sites_[site].ng, query.normal) > kMinCosine)) continue;
       if (!(dot(sites_[site].ns, shading_normal) > kMinCosine)) continue;
-      limit = distance2[lane];
+      limit = block.distance2[lane];
       best = site;
     }
   }

@@ -20,12 +20,17 @@
 
 namespace octolux {
 
+/// Photon paths that make the sites of a map of `photons` paths: as many as put about one site into
+/// the reach of each, where a record serves half the bandwidth.
+std::int64_t record_paths(std::int64_t photons, const Bandwidth& bandwidth);
+
 /// Immutable, thread-safe.
 class RecordSites {
  public:
   RecordSites() = default;
-  /// One record for each photon. Each serves points within the share `reuse` of the bandwidth, as
-  /// far as the density of the sites tells it, of look-ups for `neighbours` photons.
+  /// One record for each photon, those that are not finite left out. Each serves points within the
+  /// share `reuse` of the bandwidth, as far as the density of the sites tells it, of look-ups for
+  /// `neighbours` photons.
   RecordSites(const std::vector<Photon>& photons, const Bandwidth& bandwidth, int neighbours,
               double reuse);
 

@@ -71,13 +71,6 @@ RadianceMap make_map(const Job& job, PhotonKind kind, PassKey key, Progress& pro
   return RadianceMap(std::move(map), *job.estimator, bandwidth);
 }
 
-/// Photon paths that make sites of records: as many as put about one site into the reach of each.
-std::int64_t record_paths(const RenderConfig& config, const Bandwidth& bandwidth) {
-  constexpr double kShare = 0.2;  // of the photons, where the bandwidth is not yet shrunk
-  const double share = std::min(1.0, kShare / (bandwidth.shrink * bandwidth.shrink));
-  return static_cast<std::int64_t>(share * static_cast<double>(config.photons.global));
-}
-
 /// Records of what gather rays will find in `map`.
 GatherRecords make_records(const Job& job, const RadianceMap& map, PassKey key,
                            Progress& progress) {
@@ -85,8 +78,9 @@ GatherRecords make_records(const Job& job, const RadianceMap& map, PassKey key,
   if (!config.eye.gather || !(config.eye.reuse > 0)) return {};
   Stopwatch watch;
   const PhotonSource source{job.lights, job.aim.global};
-  const PhotonPass traced = trace_photons(job.scene, source, PhotonKind::record,
-                                          record_paths(config, map.bandwidth()), key);
+  const PhotonPass traced =
+      trace_photons(job.scene, source, PhotonKind::record,
+                    record_paths(config.photons.global, map.bandwidth()), key);
   progress.rays += traced.rays;
   progress.timing.photons += watch.lap();
   RecordConfig records;
@@ -130,49 +124,7 @@ PixelPass path_tracing_pass(const Job& job, PassKey key, Progress& progress) {
   return pixels;
 }
 
-/// Passes allowed by the rules that count them; 0: no such rule.
-int pass_limit(const StopConfig& stop, int samples_per_pass) {
-  const int by_samples = (stop.samples + samples_per_pass - 1) / samples_per_pass;
-  if (stop.passes == 0 || by_samples == 0) return std::max(stop.passes, by_samples);
-  return std::min(stop.passes, by_samples);
-}
-
-bool has_rule(const StopConfig& stop) {
-  return stop.passes > 0 || stop.samples > 0 || stop.seconds > 0 || stop.error > 0;
-}
-
-/// The error is only trusted once this many passes have had their say.
-constexpr int kPassesForError = 4;
-
-/// Time still needed by the rule that will be reached first, as far as can be foreseen.
-double remaining_seconds(const StopConfig& stop, const Progress& p) {
-  const double per_pass = p.seconds / p.passes;
-  double left = kInfinity;
-  if (p.total_passes > 0) left = std::min(left, per_pass * (p.total_passes - p.passes));
-  if (stop.seconds > 0) left = std::min(left, stop.seconds - p.seconds);
-  if (stop.error > 0 && p.passes >= kPassesForError) {
-    const double ratio = p.error / stop.error;
-    left = std::min(left, p.seconds * (ratio * ratio - 1));
-  }
-  return left < kInfinity ? std::max(0.0, left) : -1;
-}
-
 }  // namespace
-
-bool finished(const RenderConfig& config, const Progress& p) {
-  const StopConfig& stop = config.stop;
-  const int limit = pass_limit(stop, config.eye.samples_per_pass);
-  if (limit > 0 && p.passes >= limit) return true;
-  if (stop.seconds > 0 && p.seconds + 0.5 * p.seconds / p.passes >= stop.seconds) return true;
-  return stop.error > 0 && p.passes >= kPassesForError && p.error <= stop.error;
-}
-
-StopConfig default_stop(Integrator integrator) {
-  StopConfig stop;
-  stop.passes = integrator == Integrator::photon ? 256 : 1024;
-  stop.error = 0.02;
-  return stop;
-}
 
 RenderResult render(const Scene& scene, const RenderConfig& wanted, RenderObserver& observer,
                     std::optional<RenderResult> start) {
@@ -191,7 +143,7 @@ RenderResult render(const Scene& scene, const RenderConfig& wanted, RenderObserv
   OCTOLUX_CHECK(result.film.width() == film.crop_width && result.film.height() == film.crop_height);
   Progress& progress = result.progress;
   const double seconds_before = progress.seconds;
-  progress.total_passes = pass_limit(config.stop, config.eye.samples_per_pass);
+  progress.total_passes = pass_limit(config);
   result.interrupted = false;
   while (!result.interrupted && (progress.passes == 0 || !finished(config, progress))) {
     const PassKey key = job.key(progress.passes);

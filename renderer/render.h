@@ -5,33 +5,11 @@
 
 #include "renderer/config.h"
 #include "renderer/film.h"
+#include "renderer/progress.h"
 #include "renderer/scene.h"
+#include "renderer/stop_rules.h"
 
 namespace octolux {
-
-/// Seconds spent in each part of the passes so far.
-struct Timing {
-  double photons = 0;  // emitting and following photons
-  double maps = 0;     // building the trees
-  double eye = 0;      // eye paths, gathering included
-};
-
-/// How far a render is.
-struct Progress {
-  int passes = 0;
-  int total_passes = 0;           // 0: decided by time or error
-  double seconds = 0;             // spent by render(), interruptions left out
-  double pass_seconds = 0;        // of them, in the last pass
-  double remaining_seconds = -1;  // below 0: unknown
-  double error = 1;               // Film::relative_error()
-  double rays_per_second = 0;
-  std::int64_t global_photons = 0;  // stored in the last pass
-  std::int64_t caustic_photons = 0;
-  std::int64_t rejected_photons = 0;  // not finite; of all passes
-  std::int64_t photon_bytes = 0;      // both maps of the last pass
-  std::int64_t rays = 0;              // of all passes
-  Timing timing;
-};
 
 class RenderObserver {
  public:
@@ -52,12 +30,5 @@ struct RenderResult {
 /// by bit that of one render without a break.
 RenderResult render(const Scene& scene, const RenderConfig& config, RenderObserver& observer,
                     std::optional<RenderResult> start = std::nullopt);
-
-/// Do the config's stop rules, none of which need be set, end a render that has come this far, at
-/// least one pass?
-bool finished(const RenderConfig& config, const Progress& progress);
-
-/// Stop rules of a render that was given none.
-StopConfig default_stop(Integrator integrator);
 
 }  // namespace octolux

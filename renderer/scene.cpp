@@ -31,7 +31,7 @@ void Scene::aim_lights() {
   aims_ = std::make_unique<Portals>(portals);
   bool any = false;
   for (std::unique_ptr<Light>& light : lights) {
-    if (!is_infinite(*light)) continue;
+    if (light->extent()) continue;  // finite
     light = aim_at_portals(std::move(light), *aims_);
     any = true;
   }

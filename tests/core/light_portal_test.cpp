@@ -113,9 +113,9 @@ TEST(Portals, TheSunThroughASkylightHasAClosedForm) {
       << through.mean();
 }
 
-TEST(Portals, TellsWhatIsInfinite) {
-  for (const MakeLight& make : infinite_lights()) EXPECT_TRUE(is_infinite(*make()));
-  EXPECT_FALSE(is_infinite(*make_point_light({0, 0, 0}, Rgb(1))));
+TEST(Portals, WhatIsAimedAtThemHasNoExtent) {
+  for (const MakeLight& make : infinite_lights()) EXPECT_FALSE(make()->extent());
+  EXPECT_TRUE(make_point_light({0, 0, 0}, Rgb(1))->extent());
 }
 
 }  // namespace

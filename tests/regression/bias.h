@@ -1,7 +1,7 @@
 // What the kernels say about their own bias: the worst over all places (walls, corners, strips,
 // re-entrant corners) that estimators/README.md states for 50 neighbours and more, relative to the
-// truth. Two standard errors of the
-// measurements behind it (0.2 % each) are added. Not fitted to any picture.
+// truth. Two standard errors of the measurements behind it (0.2 % each) are added. Not fitted to
+// any picture.
 #pragma once
 
 #include <cmath>
