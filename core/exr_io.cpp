@@ -49,7 +49,12 @@ Imf::Header make_header(const ExrFile& file) {
     header.insert(name, Imf::StringAttribute(text));
   }
   for (const auto& [name, number] : file.attributes.number) {
-    header.insert(name, Imf::DoubleAttribute(number));
+    // OpenEXR's own, such as pixelAspectRatio, come back from a file as ours do.
+    if (auto* own = header.findTypedAttribute<Imf::FloatAttribute>(name)) {
+      own->value() = static_cast<float>(number);
+    } else {
+      header.insert(name, Imf::DoubleAttribute(number));
+    }
   }
   return header;
 }

@@ -131,6 +131,14 @@ TEST(Exr, KeepsAttributes) {
   }
 }
 
+TEST(Exr, WhatWasReadCanBeWritten) {
+  const TemporaryFolder folder;
+  write_exr(folder / "a.exr", sample_file());
+  const ExrFile read = read_exr(folder / "a.exr");
+  write_exr(folder / "b.exr", read);
+  EXPECT_EQ(read_exr(folder / "b.exr").attributes.number, read.attributes.number);
+}
+
 TEST(Exr, IsReadByOthersWithChromaticitiesOfRec709) {
   const TemporaryFolder folder;
   Image image(3, 2);
