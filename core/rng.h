@@ -16,7 +16,8 @@ enum class Stream : std::uint64_t {
   caustic_photon = 3,
   test = 4,
   record = 5,
-  learning = 6
+  learning = 6,
+  sequence = 7
 };
 
 /// splitmix64 finaliser (Steele, Lea & Flood 2014): a bijection of 64 bits with full avalanche.

@@ -40,18 +40,17 @@ Receiver receiver(const Scattering& at) {
 }
 
 Rgb sample_lights(Tracer& tracer, const LightSampler& lights, const Scattering& at,
-                  const DirectStrategy& strategy) {
+                  const DirectStrategy& strategy, const PointSet& points) {
   if (lights.empty() || strategy.max_crossings < 0) return Rgb(0);
   Rgb total(0);
-  const auto n = static_cast<std::uint32_t>(strategy.light_samples);
+  const auto n = static_cast<float>(strategy.light_samples);
   const Receiver lit = receiver(at);
-  const Vec2 shift = tracer.rng.uniform2();
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const float u_light = (static_cast<float>(i) + tracer.rng.uniform()) / static_cast<float>(n);
+  for (int i = 0; i < strategy.light_samples; ++i) {
+    const float u_light = (static_cast<float>(i) + tracer.rng.uniform()) / n;
     const LightSampler::Choice choice = lights.sample(lit, std::min(kOneMinusEpsilon, u_light));
-    total += sample_one_light(tracer, choice, shifted_hammersley(i, n, shift), at, strategy);
+    total += sample_one_light(tracer, choice, points[i], at, strategy);
   }
-  return total / static_cast<float>(n);
+  return total / n;
 }
 
 Rgb emitted(const LightSampler& lights, const SurfaceHit& hit, Vec3 wo, const Arrival& arrival) {

@@ -21,9 +21,9 @@ struct DirectStrategy {
 Receiver receiver(const Scattering& at);
 
 /// Next-event estimation at `at`: radiance towards at.wo(), the share of it that the heuristic
-/// gives this technique.
+/// gives this technique. `points`: one for each light sample.
 Rgb sample_lights(Tracer& tracer, const LightSampler& lights, const Scattering& at,
-                  const DirectStrategy& strategy);
+                  const DirectStrategy& strategy, const PointSet& points);
 
 /// How a path arrived where it is, as far as the heuristic must know.
 struct Arrival {

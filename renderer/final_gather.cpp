@@ -31,6 +31,14 @@ GatherPoint FinalGather::gather_point(Tracer& tracer, const Scattering& at, int 
   return {at, std::min(255, remaining(segments)), scene_.caster.get(), tracer.rng.uniform()};
 }
 
+/// What the eye sees gathers along the pixel's own sequence, so that its passes complement each
+/// other; what lies behind is met anew in every pass.
+PointSet FinalGather::points(Tracer& tracer, const Level& level, Use use, int n) const {
+  if (level.retraces > 0) return {n, tracer.rng};
+  const auto surface = static_cast<std::uint64_t>(level.segments);
+  return tracer.sequence.points(2 * surface + (use == Use::gather ? 1 : 0), n);
+}
+
 SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at, int segments) const {
   if (!config_.eye.gather) {
     return {Rgb(0), Rgb(0), maps_.global.radiance(gather_point(tracer, at, segments))};
@@ -44,7 +52,8 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
   if (remaining(level.segments) < 1) return out;
   const DirectStrategy strategy{Lobes::smooth, Lobes::smooth, light_samples_, level.rays,
                                 remaining(level.segments) - 1};
-  out.direct = sample_lights(tracer, lights_, at, strategy);
+  out.direct = sample_lights(tracer, lights_, at, strategy,
+                             points(tracer, level, Use::lights, light_samples_));
 
   const GatherPoint point = gather_point(tracer, at, level.segments);
   if (maps_.caustics_mapped) out.caustic = maps_.caustic.radiance(point);
@@ -58,7 +67,8 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
     next.read_distance = static_cast<float>(config_.eye.retrace) * around->bandwidth;
   }
   const Receiver from = receiver(at);
-  const GatherDirections directions(at, around->guide, level.rays, tracer.rng);
+  const PointSet directions_at = points(tracer, level, Use::gather, level.rays);
+  const GatherDirections directions(at, around->guide, level.rays, directions_at);
   for (int i = 0; i < level.rays; ++i) {
     const std::optional<GatherDirection> chosen = directions.draw(i, tracer.rng);
     if (!chosen) continue;

@@ -44,6 +44,8 @@ class FinalGather {
   SplitRadiance radiance(Tracer& tracer, const Scattering& at, const Level& level) const;
   Rgb follow(Tracer& tracer, Ray ray, const Level& level, Arrival arrival) const;
   Rgb look_up(Tracer& tracer, const Scattering& at, int segments) const;
+  enum class Use { lights, gather };
+  PointSet points(Tracer& tracer, const Level& level, Use use, int n) const;
   GatherPoint gather_point(Tracer& tracer, const Scattering& at, int segments) const;
   int remaining(int segments) const;
 

@@ -17,12 +17,18 @@ namespace {
 constexpr float kMinSharpness = 10;
 constexpr float kMaxSharpness = 1000;
 
+/// The unevenness from which on half the rays follow a guide. Between the best for light through
+/// few openings, where errors grow by a tenth from 2 to 4, and for open rooms, where they fall by a
+/// sixth.
+constexpr float kWorthFollowing = 3;
+constexpr float kMinCosine = 0.01f, kMinShare = 1e-6f;  // divisors
+
 /// t of a lobe of sharpness k; the inverse of u = t (1 + 2k) / (2 (1 + k t)).
 float sample_lobe(float u, float k) { return 2 * u / (1 + 2 * k * (1 - u)); }
 
 }  // namespace
 
-GatherGuide::GatherGuide(const PhotonMap& map, std::span<const Neighbour> photons) {
+GatherGuide::GatherGuide(const PhotonMap& map, std::span<const Neighbour> photons, Vec3 normal) {
   const std::size_t stride = (photons.size() + kMaxLobes - 1) / kMaxLobes;
   float total = 0;
   for (std::size_t i = 0; i < photons.size(); i += stride) {
@@ -38,6 +44,7 @@ GatherGuide::GatherGuide(const PhotonMap& map, std::span<const Neighbour> photon
   }
   for (std::size_t i = 0; i < count_; ++i) share_[i] /= total;
   fit_widths();
+  unevenness_ = find_unevenness(normal);
 }
 
 /// A lobe reaches to the second nearest of the other axes.
@@ -56,6 +63,18 @@ void GatherGuide::fit_widths() {
     sharpness_[i] = k;
     peak_[i] = share_[i] * (1 + 2 * k) / (4 * kPi);
   }
+}
+
+float GatherGuide::find_unevenness(Vec3 normal) const {
+  if (count_ < 2) return count_ == 0 ? 1 : kInfinity;
+  float moment = 0;
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Vec3 axis{x_[i], y_[i], z_[i]};
+    const float own = peak_[i];  // its density at its own axis
+    const float others = std::max(0.0f, pdf_w(axis) - own) / std::max(1 - share_[i], kMinShare);
+    moment += share_[i] * others / (std::max(dot(axis, normal), kMinCosine) * kInvPi);
+  }
+  return moment;
 }
 
 float GatherGuide::pdf_w(Vec3 wi) const {
@@ -79,20 +98,17 @@ Vec3 GatherGuide::sample(Vec2 u) const {
 }
 
 GatherDirections::GatherDirections(const Scattering& at, const GatherGuide& guide, int rays,
-                                   Rng& rng)
+                                   const PointSet& points)
     : at_(at),
       guide_(guide),
-      guided_(guide.empty() ? 0 : rays / 2),
+      guided_(guide.unevenness() > kWorthFollowing ? rays / 2 : 0),
       unguided_(rays - guided_),
-      shift_(rng.uniform2()) {}
+      points_(points) {}
 
 std::optional<GatherDirection> GatherDirections::draw(int i, Rng& rng) const {
-  const auto point = [&](int j, int n) {
-    return shifted_hammersley(static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(n), shift_);
-  };
-  if (i >= unguided_) return by_guide(point(i - unguided_, guided_));
+  if (i >= unguided_) return by_guide(points_[i]);
   const float u_lobe = rng.uniform();
-  return by_bsdf(u_lobe, point(i, unguided_));
+  return by_bsdf(u_lobe, points_[i]);
 }
 
 std::optional<GatherDirection> GatherDirections::by_bsdf(float u_lobe, Vec2 u) const {

@@ -13,6 +13,7 @@
 #include <span>
 
 #include "accel/photon_map.h"
+#include "core/point_set.h"
 #include "core/rng.h"
 #include "core/scattering.h"
 
@@ -23,11 +24,16 @@ class GatherGuide {
  public:
   GatherGuide() = default;
   /// From photons that were scattered at least once: what came straight from a light is brought by
-  /// next-event estimation. Of many photons, an evenly spread share is used.
-  GatherGuide(const PhotonMap& map, std::span<const Neighbour> photons);
+  /// next-event estimation. Of many photons, an evenly spread share is used. `normal`: unit, of the
+  /// surface, on the side the photons came from.
+  GatherGuide(const PhotonMap& map, std::span<const Neighbour> photons, Vec3 normal);
 
   /// No photon speaks for any direction: do not sample.
   bool empty() const { return count_ == 0; }
+  /// The second moment of radiance times cosine, were directions chosen by the cosine, over that of
+  /// the best choice: 1 where light comes evenly from everywhere. What each photon says is held
+  /// against the lobes of the others; infinite where there are no others.
+  float unevenness() const { return unevenness_; }
   /// Density [sr^-1] of `sample`.
   float pdf_w(Vec3 wi) const;
   /// A direction, not always above the surface. `u` uniform in [0, 1)^2.
@@ -36,8 +42,10 @@ class GatherGuide {
  private:
   static constexpr std::size_t kMaxLobes = 32;
   void fit_widths();
+  float find_unevenness(Vec3 normal) const;
 
   std::size_t count_ = 0;
+  float unevenness_ = 1;
   std::array<float, kMaxLobes> x_, y_, z_;         // axes
   std::array<float, kMaxLobes> share_;             // of all flux; sums to 1
   std::array<float, kMaxLobes> sharpness_, peak_;  // k and share (1 + 2k) / (4 pi)
@@ -50,12 +58,14 @@ struct GatherDirection {
   float bsdf_pdf_w = 0;  // [sr^-1] as if the BSDF had chosen it
 };
 
-/// The rays of one point: half follow the BSDF, half the guide, if there is one, combined by the
-/// balance heuristic (Veach 1997, 9.2.2). Each half is stratified.
+/// The rays of one point. Where light comes from few directions, half follow the guide, combined
+/// with the BSDF by the balance heuristic (Veach 1997, 9.2.2). Elsewhere a guide made from a few
+/// photons would bring noise of its own, other in every pass, and all follow the BSDF.
 class GatherDirections {
  public:
-  /// Refers to `at` and `guide`.
-  GatherDirections(const Scattering& at, const GatherGuide& guide, int rays, Rng& rng);
+  /// Refers to `at`, `guide` and `points`, one for each ray.
+  GatherDirections(const Scattering& at, const GatherGuide& guide, int rays,
+                   const PointSet& points);
   /// Direction `i` of `rays`; empty if it brings nothing. The sum of weight times radiance over
   /// all `i` is the reflected radiance in the mean.
   std::optional<GatherDirection> draw(int i, Rng& rng) const;
@@ -67,7 +77,7 @@ class GatherDirections {
   const Scattering& at_;
   const GatherGuide& guide_;
   int guided_, unguided_;  // how many rays follow which
-  Vec2 shift_;
+  const PointSet& points_;
 };
 
 }  // namespace octolux

@@ -12,7 +12,7 @@ namespace octolux {
 
 Surroundings survey(const RadianceMap& map, const GatherPoint& at, int neighbours) {
   const auto [photons, bandwidth] = map.neighbourhood(at, neighbours);
-  return {GatherGuide(map.photons(), photons), bandwidth};
+  return {GatherGuide(map.photons(), photons, at.at.facing_shading_normal()), bandwidth};
 }
 
 GatherRecords::GatherRecords(RecordSites sites, const RadianceMap& map, const RayCaster& caster,

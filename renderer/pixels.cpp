@@ -86,6 +86,7 @@ SampleGrid trace_grid(const Scene& scene, PassKey key, std::uint64_t number,
   for_each_pixel(grid.width, grid.height, [&](int x, int y) {
     const std::size_t pixel = static_cast<std::size_t>(y) * grid.width + x;
     Tracer tracer(scene, Rng(key.seed, Stream::eye, number, pixel));
+    tracer.sequence = {key.seed, pixel, number};
     const Vec2 corner{static_cast<float>(x), static_cast<float>(y)};
     const Vec2 lens = scene.camera.has_lens() ? tracer.rng.uniform2() : Vec2{0.5f, 0.5f};
     grid.samples[pixel] = path(tracer, scene.camera.ray(corner + grid.offset, lens));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/light.h"
+#include "core/point_set.h"
 #include "core/rng.h"
 #include "core/scattering.h"
 #include "renderer/scene.h"
@@ -47,6 +48,7 @@ class Tracer {
   std::int64_t rays() const { return rays_; }
 
   Rng rng;
+  PixelSequence sequence;  // of eye paths
 
  private:
   void count(const Ray& ray, bool shadow) {
