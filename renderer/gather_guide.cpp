@@ -20,7 +20,7 @@ constexpr float kMaxSharpness = 1000;
 /// The unevenness from which on half the rays follow a guide. Between the best for light through
 /// few openings, where errors grow by a tenth from 2 to 4, and for open rooms, where they fall by a
 /// sixth.
-constexpr float kWorthFollowing = 3;
+constexpr float kWorthFollowing = 2.5f;
 constexpr float kMinCosine = 0.01f, kMinShare = 1e-6f;  // divisors
 
 /// t of a lobe of sharpness k; the inverse of u = t (1 + 2k) / (2 (1 + k t)).

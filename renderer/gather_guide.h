@@ -40,7 +40,7 @@ class GatherGuide {
   Vec3 sample(Vec2 u) const;
 
  private:
-  static constexpr std::size_t kMaxLobes = 32;
+  static constexpr std::size_t kMaxLobes = 64;
   void fit_widths();
   float find_unevenness(Vec3 normal) const;
 

@@ -2,6 +2,7 @@
 #include "renderer/gather_records.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/bsdf_makers.h"
@@ -10,9 +11,19 @@
 
 namespace octolux {
 
+namespace {
+
+/// A guide made from fewer does not know the small bright places that a gather ray may meet.
+constexpr int kGuidePhotons = 64;
+
+}  // namespace
+
 Surroundings survey(const RadianceMap& map, const GatherPoint& at, int neighbours) {
-  const auto [photons, bandwidth] = map.neighbourhood(at, neighbours);
-  return {GatherGuide(map.photons(), photons, at.at.facing_shading_normal()), bandwidth};
+  const int heard = std::max(neighbours, kGuidePhotons);
+  const auto [photons, bandwidth] = map.neighbourhood(at, heard);
+  const float share = static_cast<float>(neighbours) / static_cast<float>(heard);
+  return {GatherGuide(map.photons(), photons, at.at.facing_shading_normal()),
+          bandwidth * std::sqrt(share)};
 }
 
 GatherRecords::GatherRecords(RecordSites sites, const RadianceMap& map, const RayCaster& caster,

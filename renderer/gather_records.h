@@ -22,7 +22,7 @@ struct Surroundings {
   GatherGuide guide;
   float bandwidth = 0;  // [m] of look-ups there
 };
-/// From the `neighbours` photons nearest to the point.
+/// From the photons nearest to the point: the bandwidth as if there were `neighbours` of them.
 Surroundings survey(const RadianceMap& map, const GatherPoint& at, int neighbours);
 
 /// What all records of a pass have in common.
