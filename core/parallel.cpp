@@ -1,4 +1,7 @@
-// parallel.h over oneTBB, which Embree brings along anyway.
+// parallel.h over oneTBB, which Embree brings along anyway. Half of oneTBB is templates that would
+// be compiled with a sanitizer's checks and half a library without, so ThreadSanitizer would see
+// half of how its tasks are handed over: under the preset `tsan` this file is built without it
+// (CMakeLists.txt) and says by ForkJoin what happens before what.
 #include "core/parallel.h"
 
 #include <tbb/blocked_range.h>
@@ -9,6 +12,8 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+
+#include "core/fork_join.h"
 
 namespace octolux {
 namespace {
@@ -41,8 +46,10 @@ void parallel_for_chunks(
     std::int64_t count, std::int64_t chunk_size,
     const std::function<void(std::int64_t, std::int64_t, std::int64_t)>& body) {
   const std::int64_t chunks = (count + chunk_size - 1) / chunk_size;
+  const ForkJoin work;
   const auto run = [&](const tbb::blocked_range<std::int64_t>& range) {
     for (std::int64_t c = range.begin(); c != range.end(); ++c) {
+      const ForkJoin::Task task(work);
       body(c, c * chunk_size, std::min(count, (c + 1) * chunk_size));
     }
   };
@@ -53,7 +60,12 @@ void parallel_for_chunks(
 }
 
 void parallel_invoke(const std::function<void()>& first, const std::function<void()>& second) {
-  with_all_threads([&] { tbb::parallel_invoke(first, second); });
+  const ForkJoin work;
+  const auto run = [&](const std::function<void()>& body) {
+    const ForkJoin::Task task(work);
+    body();
+  };
+  with_all_threads([&] { tbb::parallel_invoke([&] { run(first); }, [&] { run(second); }); });
 }
 
 }  // namespace octolux

@@ -1,10 +1,12 @@
-// core/parallel.h: every chunk once, on as many threads as were asked for.
+// core/parallel.h: every chunk once, on as many threads as were asked for; and ThreadSanitizer
+// still sees races.
 #include "core/parallel.h"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -71,6 +73,24 @@ TEST(Parallel, ExceptionsComeBack) {
   };
   EXPECT_THROW(parallel_for_chunks(100, 1, fail), std::runtime_error);
 }
+
+#ifdef OCTOLUX_TSAN
+/// What ForkJoin tells ThreadSanitizer must not hide what two chunks do to each other.
+TEST(ParallelDeathTest, RacesBetweenChunksAreReported) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto race = [] {
+    const ThreadLimit limit(2);
+    std::atomic<int> here = 0;
+    int count = 0;
+    parallel_for_chunks(2, 1, [&](std::int64_t, std::int64_t, std::int64_t) {
+      meet(here, 2);
+      ++count;
+    });
+    std::exit(count == 0);
+  };
+  EXPECT_EXIT(race(), testing::ExitedWithCode(66), "data race");
+}
+#endif
 
 }  // namespace
 }  // namespace octolux
