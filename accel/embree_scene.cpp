@@ -1,4 +1,6 @@
-// embree_scene.h: geometries made of shapes, and how Embree meets quadrics.
+// embree_scene.h: geometries made of shapes, and how Embree meets quadrics. Embree builds with
+// threads of its own, which call back from here: what ThreadSanitizer has to know of them, it is
+// told.
 #include "accel/embree_scene.h"
 
 #include <algorithm>
@@ -6,6 +8,7 @@
 
 #include "core/check.h"
 #include "core/error.h"
+#include "core/fork_join.h"
 
 namespace octolux {
 namespace {
@@ -16,6 +19,7 @@ void record_error(void* first_error, RTCError, const char* message) {
 }
 
 bool count_memory(void* total, ssize_t bytes, bool) {
+  happens_after(total);
   *static_cast<std::atomic<std::int64_t>*>(total) += bytes;
   return true;  // go on
 }
@@ -25,6 +29,7 @@ const Quadric& quadric_of(void* shape) {
 }
 
 void quadric_bounds(const RTCBoundsFunctionArguments* args) {
+  happens_after(args->geometryUserPtr);
   const Bounds box = bounds(*static_cast<const Shape*>(args->geometryUserPtr));
   *args->bounds_o = {box.lower.x, box.lower.y, box.lower.z, 0,
                      box.upper.x, box.upper.y, box.upper.z, 0};
@@ -80,6 +85,7 @@ Owned<RTCGeometry> make_triangles(RTCDevice device, const TriangleMesh& mesh) {
 }
 
 Owned<RTCGeometry> make_user_geometry(RTCDevice device, const Shape& shape) {
+  happens_before(&shape);
   Owned<RTCGeometry> geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
   rtcSetGeometryUserPrimitiveCount(geometry.get(), 1);
   rtcSetGeometryUserData(geometry.get(), const_cast<Shape*>(&shape));
@@ -103,6 +109,7 @@ EmbreeScene::EmbreeScene(std::span<const Shape> shapes, std::span<const Instance
     : shapes_(shapes), instances_(instances) {
   OCTOLUX_CHECK(device_ != nullptr);
   rtcSetDeviceErrorFunction(device_.get(), record_error, &first_error_);
+  happens_before(&memory_);
   rtcSetDeviceMemoryMonitorFunction(device_.get(), count_memory, &memory_);
   scene_.reset(new_scene(device_.get()));
   add_shapes();
@@ -115,14 +122,20 @@ EmbreeScene::EmbreeScene(std::span<const Shape> shapes, std::span<const Instance
 }
 
 void EmbreeScene::commit(RTCScene scene, const RayCaster::BuildProgress& progress) const {
+  struct Build {
+    const RayCaster::BuildProgress& progress;
+    ForkJoin work;
+  } build{progress, {}};
   const auto report = [](void* to, double share) {
-    (*static_cast<const RayCaster::BuildProgress*>(to))(share);
+    const auto* of = static_cast<const Build*>(to);
+    const ForkJoin::Task task(of->work);
+    of->progress(share);
     return true;  // go on
   };
-  auto* to = const_cast<RayCaster::BuildProgress*>(&progress);
-  if (progress) rtcSetSceneProgressMonitorFunction(scene, report, to);
+  if (progress) rtcSetSceneProgressMonitorFunction(scene, report, &build);
   rtcCommitScene(scene);
   if (progress) rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
+  happens_after(&memory_);
 }
 
 void EmbreeScene::attach_shape(RTCScene to, const Shape& shape, std::uint32_t id) const {

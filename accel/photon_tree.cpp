@@ -1,8 +1,6 @@
 // Building the kd-tree: medians by nth_element (Musser's introselect), halves in parallel.
 #include "accel/photon_tree.h"
 
-#include <tbb/parallel_invoke.h>
-
 #include <algorithm>
 #include <bit>
 
@@ -86,7 +84,7 @@ void PhotonTree::split(std::span<Item> items, std::uint32_t node, std::uint32_t 
   const auto split_left = [&] { split(items.first(count), 2 * node, left); };
   const auto split_right = [&] { split(items.subspan(count), 2 * node + 1, leaves - left); };
   if (items.size() > kParallelItems) {
-    tbb::parallel_invoke(split_left, split_right);
+    parallel_invoke(split_left, split_right);
   } else {
     split_left();
     split_right();

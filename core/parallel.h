@@ -29,4 +29,7 @@ void parallel_for_chunks(
     std::int64_t count, std::int64_t chunk_size,
     const std::function<void(std::int64_t chunk, std::int64_t begin, std::int64_t end)>& body);
 
+/// Calls both functions, at the same time if a thread is free.
+void parallel_invoke(const std::function<void()>& first, const std::function<void()>& second);
+
 }  // namespace octolux

@@ -87,7 +87,7 @@ const std::vector<Owner> kOwners = {
     {"stb_easy_font", {"tools/compare/text.cpp"}},
     {"zlib", {"renderer/serialized_file.cpp", "tools/compare/page_pixels.cpp"}},
     {"OpenColorIO", {"core/display.cpp"}},
-    {"tbb/", {"core/parallel.cpp", "accel/"}},
+    {"tbb/", {"core/parallel.cpp"}},
     {"pugixml", {"renderer/"}},
     {"tiny_obj", {"renderer/"}},
     {"CLI/", {"tools/"}},
