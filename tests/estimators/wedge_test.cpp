@@ -93,5 +93,30 @@ TEST(FreeRegion, PillarsCornersOfAnyAngle) {
   }
 }
 
+// Beside a wall, closer than a few lifts of the feelers, seen from low above the floor: feelers
+// that start aside, towards the viewer, hit the end wall where from the query they would have met
+// the wall, and leave a sliver behind it that counts as free.
+TEST(FreeRegion, LowViewersDoNotSeeRoundCorners) {
+  Room room({1, 0.4f, 0.3f, {}});
+  add_floor(room);
+  room.walls({{-kFar, 0}, {1, 0}, {1, kFar}}, false);
+  Rng rng = rng_of(11);
+  int leaks = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec2 x{rng.uniform(), 0.001f + 0.01f * rng.uniform()};
+    FeelerQuery query = query_at(room, x, 2, rng.uniform());
+    const float way = rng.uniform();
+    query.wo = room.placement().vector(normalize(Vec3{-way, 1, 0.2f}));
+    const FreeRegion region(room.caster(), query);
+    for (int j = 0; j < 4; ++j) {
+      const float along = rng.uniform(), behind = rng.uniform();
+      const Vec2 p{x.x + (1 - x.x) * along, -1e-5f - 0.01f * behind};
+      const Vec3 offset = room.placement().point({p.x, p.y, 0}) - query.point.position;
+      leaks += region.photons().contains(offset);
+    }
+  }
+  EXPECT_EQ(leaks, 0);
+}
+
 }  // namespace
 }  // namespace octolux::test
