@@ -44,9 +44,22 @@ TangentPlane::TangentPlane(const FeelerQuery& query)
   s = frame.s * std::cos(angle) + frame.t * std::sin(angle);
   t = cross(n, s);
   lift = feeler_lift(query);
-  const float cosine = std::max(dot(query.wo, n), 0.0f);
-  const float back = cosine > 0.25f ? lift / cosine : 4 * lift;
-  start = origin + query.wo * back + n * (lift - back * cosine);
+  move_start(query.wo, std::min(32 * query.point.error + lift / 64, way_to_viewer(query.wo)));
+}
+
+void TangentPlane::avoid_overhang(const RayCaster& caster, Vec3 wo) {
+  const float up = 0.75f * lift;
+  if (caster.occluded({start - n * up, n, 0, up})) move_start(wo, way_to_viewer(wo));
+}
+
+void TangentPlane::move_start(Vec3 wo, float way) {
+  start = origin + wo * way + n * (lift - way * std::max(dot(wo, n), 0.0f));
+}
+
+/// How far towards the viewer the feelers' height is reached, or nearly.
+float TangentPlane::way_to_viewer(Vec3 wo) const {
+  const float cosine = dot(wo, n);
+  return cosine > 0.25f ? lift / cosine : 4 * lift;
 }
 
 HalfPlane TangentPlane::free_side(Vec3 wall_normal, Vec3 p, Vec2 fallback) const {

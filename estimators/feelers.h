@@ -12,7 +12,12 @@
 // term keeps a ray of rounded direction (2^-23 of its length) off its own plane, steps over gaps
 // and steps too low to matter to a density (light cannot come from under them), and is below the
 // skirting board. An arc whose normals agree to 45 degrees over a distance r rises by at most
-// r tan(22.5 degrees) = 0.41 r, so the last lift of 0.42 of the length clears it. Pure functions.
+// r tan(22.5 degrees) = 0.41 r, so the last lift of 0.42 of the length clears it.
+//
+// A query in a wall's plane belongs to the side the viewer is on, so feelers start a little that
+// way: 32 errors of the position, and lift / 64. No more, because what they say is taken to be seen
+// from the query: started two lifts aside, one in 10^6 would pass a far corner on the other side of
+// a thin wall. Pure functions.
 #pragma once
 
 #include <array>
@@ -50,10 +55,13 @@ float feeler_lift(const FeelerQuery& query);
 /// The tangent plane of a query, and the tolerances there.
 struct TangentPlane {
   Vec3 origin, s, t, n;
-  Vec3 start;      // of feelers: above the origin, where the viewer's ray passed if it is steep
+  Vec3 start;      // of feelers: above the origin
   float lift = 0;  // [m] of the start above the plane
 
   explicit TangentPlane(const FeelerQuery& query);
+  /// Starts feelers on the way to the viewer if something hangs over the origin, lower than they
+  /// are.
+  void avoid_overhang(const RayCaster& caster, Vec3 wo);
   Vec2 project(Vec3 p) const { return {dot(p - origin, s), dot(p - origin, t)}; }
   float height(Vec3 p) const { return dot(p - origin, n); }
   Vec3 point(Vec2 p, float above) const { return origin + s * p.x + t * p.y + n * above; }
@@ -62,6 +70,10 @@ struct TangentPlane {
   bool agrees(Vec3 normal) const { return dot(normal, n) > 0.7f; }
   /// The side of a wall that faces the query, in this plane. `p`: a point of it.
   HalfPlane free_side(Vec3 wall_normal, Vec3 p, Vec2 fallback) const;
+
+ private:
+  void move_start(Vec3 wo, float way);
+  float way_to_viewer(Vec3 wo) const;
 };
 
 struct Feeler {

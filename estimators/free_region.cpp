@@ -126,7 +126,8 @@ FreeRegion::FreeRegion(Vec3 normal) {
 }
 
 FreeRegion::FreeRegion(const RayCaster& caster, const FeelerQuery& query) {
-  const TangentPlane plane(query);
+  TangentPlane plane(query);
+  plane.avoid_overhang(caster, query.wo);
   region_.s = plane.s;
   region_.t = plane.t;
   region_.clearance = kInfinity;

@@ -1,4 +1,4 @@
-// The corrected OctoBox held to what it must reach (tools/lab/reach.h). A figure passes if it is
+// The corrected kernels held to what they must reach (tools/lab/reach.h). A figure passes if it is
 // within its limit by the standard error that the number of tests asks for.
 #include "tools/lab/reach.h"
 
@@ -29,6 +29,28 @@ TEST(ReachSlow, BiasOfOctoBox) {
           << r.standard_error;
     }
   }
+}
+
+TEST(ReachSlow, BiasOfFeelerAndRegion) {
+  for (const ReachMeasure& measure : reach_measures()) {
+    const bool plane = measure.feeler_limit < 0.01;
+    LabSettings settings = settings_for("feeler", plane ? 6000 : 1000);
+    settings.kernels.push_back(parse_lab_kernel("region"));
+    for (const LabResult& r : worst_bias(measure, settings)) {
+      EXPECT_LT(std::abs(r.bias()) - kDeviates * r.standard_error, measure.feeler_limit)
+          << r.kernel << " " << measure.name << " n " << r.neighbours << ": " << r.bias() << " +- "
+          << r.standard_error;
+    }
+  }
+}
+
+TEST(ReachSlow, NoiseOfFeelerAndRegion) {
+  LabSettings settings = settings_for("feeler", 20000);
+  settings.kernels.push_back(parse_lab_kernel("region"));
+  for (const double ratio : worst_noise(settings, {50, 80, 150})) {
+    EXPECT_LT(ratio, 1.1 + 4 / std::sqrt(6000.0));
+  }
+  for (const double ratio : worst_noise(settings, {5, 10, 20, 40})) EXPECT_LT(ratio, 1.3);
 }
 
 TEST(ReachSlow, NoiseOfOctoBox) {

@@ -213,5 +213,34 @@ TEST(Region, SmallSurfacesAreTakenWhole) {
   EXPECT_GT(z_test_p(irradiance.z(1)), kAlpha) << irradiance.mean();
 }
 
+// A bump map tilts the shading normal. Where the surface is, and who lights it, does not follow.
+TEST(Region, ShadingNormalsFarFromGeometricChangeNothing) {
+  Room room({1, 0.4f, 0.3f, {}});
+  corner(room);
+  Rng rng = rng_of(27);
+  const PhotonMap map = floor_photons(room, rng, 6000, kHalf,
+                                      [](Vec2 p) { return p.x > 0 && p.y > 0 ? 1.0f : 0.1f; });
+  const auto white = make_diffuse(Color(Rgb(1)));
+  const auto two_sided = make_two_sided(*white, *white);
+  for (const char* name : {"octobox", "region", "feeler"}) {
+    const auto kernel = make(name, 50);
+    for (const Vec2 tilt : {Vec2{3, 0}, Vec2{-2, 2}, Vec2{0.1f, -8}}) {
+      SurfacePoint point = room.look_down({0.05f, 0.1f}).value();
+      const auto look = [&] {
+        const Scattering at(point, *two_sided, room.placement().vector({0, 0, 1}),
+                            Carried::radiance);
+        return kernel->estimate({at, 255, &room.caster(), 0.3f}, map, {});
+      };
+      const Estimate flat = look();
+      point.ns = normalize(point.ng + room.placement().vector({tilt.x, tilt.y, 0}));
+      const Estimate bumped = look();
+      EXPECT_EQ(bumped.count, flat.count) << name;
+      EXPECT_EQ(bumped.bandwidth, flat.bandwidth) << name;
+      EXPECT_NEAR(bumped.area, flat.area, 8 * 0x1p-23f * flat.area) << name;  // sums differ
+      EXPECT_TRUE(is_finite(bumped.radiance) && bumped.radiance.g >= 0) << name;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace octolux::test

@@ -52,11 +52,14 @@ LabLayout strip(double distance, double size) {
 }
 
 LabLayout wedge(double distance, double size) {
+  if (!(size < 360)) throw Error("a wedge must have less than 360 degrees");
   const double half = size / 2 * std::numbers::pi / 180;
-  const Point2 apex{-distance, 0};
+  const Point2 apex{-distance, 0}, ahead{kFar - distance, 0};
   const Point2 low{apex.x + kFar * std::cos(half), -kFar * std::sin(half)};
   const Point2 high{low.x, -low.y};
-  return {{FloorPiece{{apex, low, high}}}, {{high, apex}, {apex, low}}};
+  const std::vector<LabWall> walls{{high, apex}, {apex, low}};
+  if (size < 180) return {{FloorPiece{{apex, low, high}}}, walls};
+  return {{FloorPiece{{apex, low, ahead}}, FloorPiece{{apex, ahead, high}}}, walls};
 }
 
 LabLayout round_table(double distance, double size) {
@@ -101,8 +104,8 @@ constexpr LabCase kCases[] = {
     {"reentrant", "a pillar's corner: three quarters of the plane are free", 0, 0, reentrant},
     {"strip", "a corridor as wide as the size; distance 0.5 is its middle, 0 at a wall", 0.5, 0.3,
      strip},
-    {"wedge", "two walls at an angle of the size [degrees], the apex at the distance", 0, 60,
-     wedge},
+    {"wedge", "two walls at an angle of the size [degrees, below 360], the apex at the distance", 0,
+     60, wedge},
     {"edge", "a free straight edge at the distance", 0, 0, edge},
     {"disc-edge", "a round table top of the size's radius, its rim at the distance", 0.2, 2,
      round_table},

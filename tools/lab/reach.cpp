@@ -14,15 +14,21 @@ const std::vector<int> kMany{50, 70, 100, 200, 400, 1000, 2000};
 const std::vector<int> kAll{3, 4, 5, 7, 10, 15, 20, 30, 40, 50, 70, 100, 200, 400, 1000, 2000};
 
 const std::vector<ReachMeasure> kMeasures{
-    {"open plane, n 3 to 2000", 0.005, {{"plane", 0, 0}}, kAll},
-    {"wall through the query, any angle", 0.07, {{"wall", 0, 0}}, kMany},
-    {"wall at 0.1, 0.3, 0.6", 0.07, {{"wall", 0.1, 0}, {"wall", 0.3, 0}, {"wall", 0.6, 0}}, kMany},
-    {"corner at the query, any angle", 0.07, {{"corner", 0, 0}}, kMany},
+    {"open plane, n 3 to 2000", 0.005, 0.005, {{"plane", 0, 0}}, kAll},
+    {"wall through the query, any angle", 0.07, 0.01, {{"wall", 0, 0}}, kMany},
+    {"wall at 0.1, 0.3, 0.6",
+     0.07,
+     0.01,
+     {{"wall", 0.1, 0}, {"wall", 0.3, 0}, {"wall", 0.6, 0}},
+     kMany},
+    {"corner at the query, any angle", 0.07, 0.01, {{"corner", 0, 0}}, kMany},
     {"corner at 0.1, 0.3, 0.6",
      0.07,
+     0.01,
      {{"corner", 0.1, 0}, {"corner", 0.3, 0}, {"corner", 0.6, 0}},
      kMany},
     {"strip 0.01, 0.06, 0.3, 1 wide, in the middle and at a wall, any angle",
+     0.10,
      0.10,
      {{"strip", 0.5, 0.01},
       {"strip", 0.5, 0.06},
@@ -32,8 +38,12 @@ const std::vector<ReachMeasure> kMeasures{
       {"strip", 0, 0.3},
       {"strip", 0.2, 1}},
      kMany},
-    {"re-entrant corner at the query", 0.12, {{"reentrant", 0, 0}}, kMany},
-    {"re-entrant corner at 0.1, 0.3", 0.12, {{"reentrant", 0.1, 0}, {"reentrant", 0.3, 0}}, kMany},
+    {"re-entrant corner at the query", 0.12, 0.02, {{"reentrant", 0, 0}}, kMany},
+    {"re-entrant corner at 0.1, 0.3",
+     0.12,
+     0.02,
+     {{"reentrant", 0.1, 0}, {"reentrant", 0.3, 0}},
+     kMany},
 };
 
 LabLayout layout_at(const ReachPlace& place) {

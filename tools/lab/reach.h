@@ -18,7 +18,8 @@ struct ReachPlace {
 /// The worst bias over places and numbers of photons.
 struct ReachMeasure {
   const char* name;
-  double limit;  // of |bias| for a corrected OctoBox
+  double limit;         // of |bias| for a corrected OctoBox
+  double feeler_limit;  // the same for kernels that look at the geometry
   std::vector<ReachPlace> places;
   std::vector<int> neighbours;
 };

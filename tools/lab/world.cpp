@@ -93,8 +93,12 @@ Vec3 LabWorld::viewer() const {
     irradiance(p, near);
     if (near) sum.x += p.x, sum.y += p.y, ++count;
   }
-  const double scale = 1.0 / std::max(count, 1);
-  return normalize(turned(sum.x * scale, sum.y * scale, 1));
+  // Low over the floor, so that a query in a wall's plane is clearly seen from one side: rounding
+  // leaves walls as long as these a little off the query.
+  constexpr double kHeight = 0.25, kNoDirection = 1e-3;
+  const double away = std::hypot(sum.x, sum.y);
+  if (away <= kNoDirection * count) return {0, 0, 1};
+  return normalize(turned(sum.x / away, sum.y / away, kHeight));
 }
 
 Photon LabWorld::photon_on_floor(Point2 p, double flux) const {

@@ -1,0 +1,85 @@
+// Light behind a thin wall, from the scene file to the film: in scenes/thin-wall no light reaches
+// the right room, and with the kernels that look at the geometry no pixel of it differs from black
+// by a single bit, whether the map is shown directly or gathered, and whether gather rays share
+// look-ups or not. The other kernels do leak there, or the test would show nothing.
+#include <gtest/gtest.h>
+
+#include "tests/renderer/renders.h"
+
+namespace octolux::test {
+namespace {
+
+/// The part of the picture right of the partition: the dark room and what is outside.
+std::unique_ptr<Scene> dark_room(const char* thickness, int width) {
+  auto scene = shipped_scene("thin-wall/thin-wall.xml", {{"wall", thickness}});
+  const int height = width * 9 / 16, left = width * 15 / 32;
+  scene->film = {width, height, left, 0, width - left, height};
+  scene->camera = Camera(scene->camera_config, scene->film);
+  return scene;
+}
+
+/// Bandwidths of some 20 cm, in every pass.
+RenderConfig wide_look_ups(const char* kernel, bool gather, double reuse, int passes) {
+  RenderConfig config = photon_config(passes, 10'000);
+  config.photons.alpha = 1;
+  config.estimator.kernel = kernel;
+  config.estimator.neighbours = 100;
+  config.eye.gather = gather;
+  config.eye.reuse = reuse;
+  return config;
+}
+
+int lit_pixels(const Scene& scene, const RenderConfig& config) {
+  const Image radiance = render_film(scene, config).radiance();
+  return static_cast<int>(std::count_if(radiance.pixels.begin(), radiance.pixels.end(),
+                                        [](Rgb c) { return c.r != 0 || c.g != 0 || c.b != 0; }));
+}
+
+struct Mode {
+  const char* name;
+  bool gather;
+  double reuse;
+};
+constexpr Mode kModes[] = {{"Direct", false, 0}, {"Gathered", true, 0}, {"Shared", true, 0.5}};
+
+class ThinWall : public testing::TestWithParam<Mode> {
+ protected:
+  /// Lit pixels over all thicknesses of the wall.
+  int lit(const char* kernel, int width, int passes) const {
+    int count = 0;
+    for (const char* thickness : {"0.1", "0.02", "0.001"}) {
+      const auto room = dark_room(thickness, width);
+      count +=
+          lit_pixels(*room, wide_look_ups(kernel, GetParam().gather, GetParam().reuse, passes));
+    }
+    return count;
+  }
+};
+using ThinWallSlow = ThinWall;
+
+TEST_P(ThinWall, IsBlackToTheLastBitWithFeelers) {
+  EXPECT_EQ(lit("feeler", 64, 1), 0);
+  EXPECT_EQ(lit("region", 64, 1), 0);
+}
+
+TEST_P(ThinWall, LeaksWithoutFeelers) {
+  for (const char* kernel : {"cone", "octobox"}) EXPECT_GT(lit(kernel, 64, 1), 0) << kernel;
+}
+
+// A million looks at the map by each kernel, from the eye or by eight gather rays for each sample.
+TEST_P(ThinWallSlow, IsBlackToTheLastBitWithFeelers) {
+  const int passes = GetParam().gather ? 3 : 18;
+  for (const char* kernel : {"feeler", "region"}) EXPECT_EQ(lit(kernel, 256, passes), 0) << kernel;
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes, ThinWall, testing::ValuesIn(kModes),
+                         [](const testing::TestParamInfo<Mode>& param) {
+                           return param.param.name;
+                         });
+INSTANTIATE_TEST_SUITE_P(Modes, ThinWallSlow, testing::ValuesIn(kModes),
+                         [](const testing::TestParamInfo<Mode>& param) {
+                           return param.param.name;
+                         });
+
+}  // namespace
+}  // namespace octolux::test
