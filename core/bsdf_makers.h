@@ -75,9 +75,9 @@ struct RoughPlasticConfig {
 std::unique_ptr<Bsdf> make_rough_plastic(const RoughPlasticConfig& config);
 
 struct GlossyConfig {
-  Color diffuse{Rgb(0)};  // Kd
-  Rgb specular{0, 0, 0};  // Ks: reflectance at normal incidence
-  float alpha = 0.1f;     // GGX
+  Color diffuse{Rgb(0)};   // Kd
+  Color specular{Rgb(0)};  // Ks: reflectance at normal incidence; above 1 counts as 1
+  float alpha = 0.1f;      // GGX
 };
 /// Wavefront MTL's Kd + Ks + Ns: Lambert under a GGX lobe with Schlick's Fresnel; never reflects
 /// more than it receives.
