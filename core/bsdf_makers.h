@@ -101,6 +101,15 @@ struct PrincipledConfig {
 /// Disney's material as in Mitsuba 3's `principled`; all numbers in [0, 1].
 std::unique_ptr<Bsdf> make_principled(const PrincipledConfig& config);
 
+struct PrincipledThinConfig {
+  Color base_color{Rgb(0.5f)};
+  Scalar eta = 1.5f, roughness = 0.5f, anisotropic = 0, spec_trans = 0, spec_tint = 0;
+  Scalar sheen = 0, sheen_tint = 0, flatness = 0;
+  Scalar diff_trans = 0;  // in [0, 2]: half of it of diffuse light goes through
+};
+/// Disney's material for thin sheets as in Mitsuba 3's `principledthin`; other numbers in [0, 1].
+std::unique_ptr<Bsdf> make_principled_thin(const PrincipledThinConfig& config);
+
 struct CoatingConfig {
   float eta = 1.5046f / 1.000277f;
   float thickness = 1;    // in units of 1 / sigma_a
