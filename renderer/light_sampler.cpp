@@ -13,10 +13,11 @@ namespace octolux {
 
 namespace {
 
-/// Lamps of fewer triangles are not cut.
+/// Lamps of fewer triangles are not cut. One as large as the scene is cut into kMostParts, smaller
+/// ones into so many fewer: what is small is seen from far, where its parts are all alike, and a
+/// deeper tree takes longer. All together at most kMostPartsInAll.
 constexpr std::size_t kManyTriangles = 16;
-/// Parts of one mesh, and of all together.
-constexpr std::size_t kMostParts = 512, kMostPartsInAll = 1 << 14;
+constexpr int kMostParts = 64, kMostPartsInAll = 1 << 14;
 /// A part counts as no less than this share of its mesh, so that weights are above 0.
 constexpr double kLeastShare = 1e-12;
 
@@ -52,19 +53,18 @@ LightSampler::LightSampler(const Scene& scene) {
 /// Cuts meshes of many triangles into parts, if they emit.
 void LightSampler::cut(const Scene& scene) {
   parts_.resize(lights_.size());
-  std::vector<const Shape*> meshes;
+  const float scene_radius = scene.bounds.radius();
+  int left = kMostPartsInAll;
   for (const Shape& shape : scene.shapes) {
     const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry);
     if (shape.light < 0 || !mesh || mesh->triangles.size() < kManyTriangles) continue;
-    if (mean(lights_[shape.light]->power()) > 0) meshes.push_back(&shape);
-  }
-  if (meshes.empty()) return;
-  const auto each = static_cast<int>(std::min(kMostParts, kMostPartsInAll / meshes.size()));
-  for (const Shape* shape : meshes) {
-    if (each < 2) break;
-    const auto& light = static_cast<const AreaLight&>(*lights_[shape->light]);
-    parts_[shape->light] =
-        std::make_unique<MeshParts>(std::get<TriangleMesh>(shape->geometry), light, each);
+    if (!(mean(lights_[shape.light]->power()) > 0) || !(scene_radius > 0)) continue;
+    const float size = std::min(1.0f, bounds(shape).radius() / scene_radius);
+    const int most = std::min(left, static_cast<int>(std::ceil(size * kMostParts)));
+    if (most < 2) continue;
+    const auto& light = static_cast<const AreaLight&>(*lights_[shape.light]);
+    parts_[shape.light] = std::make_unique<MeshParts>(*mesh, light, most);
+    left -= parts_[shape.light]->size();
   }
 }
 
