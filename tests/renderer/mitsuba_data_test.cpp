@@ -57,6 +57,36 @@ TEST_P(MitsubaDataSlow, PathPassesItsAcceptanceRule) {
   EXPECT_GE(passed / (3.0 * pixels), 0.9975);
 }
 
+/// Photon mapping by the same rule, where it has photons to map: a pass counts as a sample, and the
+/// passes' own variance is added to the reference's, for what photons have in common.
+TEST_P(MitsubaDataSlow, PhotonPassesItToo) {
+  const Case& c = GetParam();
+  if (!std::filesystem::exists(kRoot))
+    GTEST_SKIP() << "no mitsuba-data scenes beside the repository";
+  const auto scene = load_scene(kRoot + c.scene, {});
+  const bool gathers = std::any_of(scene->bsdfs.begin(), scene->bsdfs.end(),
+                                   [](const auto& b) { return b->has(Lobes::smooth); });
+  if (!gathers) GTEST_SKIP() << "no diffuse or rough surface";
+  const Image reference = read_exr(kRoot + c.reference + "_rgb.exr").image();
+  const Image variance = read_exr(kRoot + c.reference + "_rgb_var.exr").image();
+  constexpr int kPasses = 48;
+  const Film film = render_film(*scene, photon_config(kPasses, 20'000));
+  const Image image = film.radiance(), own = film.variance();
+  const auto pixels = static_cast<int>(reference.pixels.size());
+  const double limit = sidak(0.01, pixels);
+  int passed = 0;
+  for (int i = 0; i < pixels; ++i) {
+    const Rgb difference = to_xyz(image.pixels[i] - reference.pixels[i]);
+    const Rgb theirs = to_xyz(variance.pixels[i]), ours = to_xyz(own.pixels[i]);
+    for (int ch = 0; ch < 3; ++ch) {
+      const double var = static_cast<double>(std::max(1e-4f, theirs[ch]) / kPasses + ours[ch]);
+      passed += z_test_p(static_cast<double>(difference[ch]) / std::sqrt(var)) > limit;
+    }
+  }
+  std::printf("  %s: photon, %.4f of the pixels pass\n", c.scene, passed / (3.0 * pixels));
+  EXPECT_GE(passed / (3.0 * pixels), 0.9975);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Scenes, MitsubaDataSlow,
     testing::Values(
