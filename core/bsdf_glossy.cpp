@@ -16,54 +16,69 @@ Rgb clamp_unit(Rgb c) {
 class GlossyModel {
  public:
   GlossyModel(const GlossyConfig& config, const Microfacet& microfacet)
-      : diffuse_(config.diffuse), f0_(clamp_unit(config.specular)) {
-    // No dielectric reflects less than 2 % at normal incidence: a darker Ks means a dull surface,
-    // whose rim must not light up either (Lagarde & de Rousiers 2014, 3.1).
-    f90_ = std::min(1.0f, 50 * max_component(f0_));
-    albedo_ = schlick_albedo(microfacet);
-    mean_coat_ = coat_albedo(albedo_.full.diffuse_mean(), albedo_.grazing.diffuse_mean());
-    const Rgb rest = Rgb(1) - mean_coat_;
-    base_scale_ = {rest.r > 0 ? 1 / rest.r : 0, rest.g > 0 ? 1 / rest.g : 0,
-                   rest.b > 0 ? 1 / rest.b : 0};
+      : diffuse_(config.diffuse), specular_(config.specular), albedo_(schlick_albedo(microfacet)) {
+    mean_full_ = albedo_.full.diffuse_mean();
+    mean_grazing_ = albedo_.grazing.diffuse_mean();
   }
 
-  Rgb coat(float cos_m) const { return f0_ + (Rgb(f90_) - f0_) * schlick_weight(cos_m); }
+  Rgb coat(const SurfacePoint& at, float cos_m) const {
+    const Ends ends = ends_of(specular_(at.uv));
+    return ends.f0 + (Rgb(ends.f90) - ends.f0) * schlick_weight(cos_m);
+  }
 
   Rgb base(const SurfacePoint& at, float cos_o, float cos_i) const {
-    return diffuse_(at.uv) * base_scale_ * kInvPi * below_coat(cos_o) * below_coat(cos_i);
+    const Ends ends = ends_of(specular_(at.uv));
+    const Rgb rest = Rgb(1) - mean_coat(ends);
+    const Rgb scale{rest.r > 0 ? 1 / rest.r : 0, rest.g > 0 ? 1 / rest.g : 0,
+                    rest.b > 0 ? 1 / rest.b : 0};
+    return diffuse_(at.uv) * scale * kInvPi * below_coat(ends, cos_o) * below_coat(ends, cos_i);
   }
 
-  float coat_share(float cos_o) const {
-    const Rgb below = below_coat(cos_o);
+  float coat_share(const SurfacePoint& at, float cos_o) const {
+    const Rgb below = below_coat(ends_of(specular_(at.uv)), cos_o);
     const float specular = mean(Rgb(1) - below);
     const float diffuse = mean(below * diffuse_.mean());
     return specular + diffuse > 0 ? specular / (specular + diffuse) : 1;
   }
 
   Rgb albedo(const SurfacePoint& at) const {
-    return mean_coat_ + (Rgb(1) - mean_coat_) * diffuse_(at.uv);
+    const Rgb coat = mean_coat(ends_of(specular_(at.uv)));
+    return coat + (Rgb(1) - coat) * diffuse_(at.uv);
   }
 
  private:
-  Rgb coat_albedo(float full, float grazing) const {
-    return clamp_unit(f0_ * full + (Rgb(f90_) - f0_) * grazing);
-  }
-  Rgb below_coat(float cosine) const {
-    return Rgb(1) - coat_albedo(albedo_.full(cosine), albedo_.grazing(cosine));
+  /// Reflectance at normal and at grazing incidence. No dielectric reflects less than 2 % at normal
+  /// incidence: a darker Ks means a dull surface, whose rim must not light up either (Lagarde &
+  /// de Rousiers 2014, 3.1).
+  struct Ends {
+    Rgb f0;
+    float f90;
+  };
+  static Ends ends_of(Rgb specular) {
+    const Rgb f0 = clamp_unit(specular);
+    return {f0, std::min(1.0f, 50 * max_component(f0))};
   }
 
-  Color diffuse_;
-  Rgb f0_;
-  float f90_;
+  static Rgb coat_albedo(const Ends& ends, float full, float grazing) {
+    return clamp_unit(ends.f0 * full + (Rgb(ends.f90) - ends.f0) * grazing);
+  }
+  /// Hemispherical albedo of the coat.
+  Rgb mean_coat(const Ends& ends) const { return coat_albedo(ends, mean_full_, mean_grazing_); }
+  Rgb below_coat(const Ends& ends, float cosine) const {
+    return Rgb(1) - coat_albedo(ends, albedo_.full(cosine), albedo_.grazing(cosine));
+  }
+
+  Color diffuse_, specular_;
   SchlickAlbedo albedo_;
-  Rgb mean_coat_;   // hemispherical albedo of the coat
-  Rgb base_scale_;  // 1 / (1 - mean_coat_)
+  float mean_full_, mean_grazing_;  // over all directions
 };
 
 }  // namespace
 
 std::unique_ptr<Bsdf> make_glossy(const GlossyConfig& config) {
-  if (is_black(config.specular)) return make_diffuse(config.diffuse);
+  if (config.specular.is_constant() && is_black(config.specular.mean())) {
+    return make_diffuse(config.diffuse);
+  }
   const Microfacet microfacet(MicrofacetKind::ggx, config.alpha, config.alpha);
   return std::make_unique<RoughCoat<GlossyModel>>(GlossyModel(config, microfacet), microfacet,
                                                   microfacet_lobe(config.alpha),

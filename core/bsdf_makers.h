@@ -75,9 +75,9 @@ struct RoughPlasticConfig {
 std::unique_ptr<Bsdf> make_rough_plastic(const RoughPlasticConfig& config);
 
 struct GlossyConfig {
-  Color diffuse{Rgb(0)};  // Kd
-  Rgb specular{0, 0, 0};  // Ks: reflectance at normal incidence
-  float alpha = 0.1f;     // GGX
+  Color diffuse{Rgb(0)};   // Kd
+  Color specular{Rgb(0)};  // Ks: reflectance at normal incidence; above 1 counts as 1
+  float alpha = 0.1f;      // GGX
 };
 /// Wavefront MTL's Kd + Ks + Ns: Lambert under a GGX lobe with Schlick's Fresnel; never reflects
 /// more than it receives.
@@ -100,6 +100,15 @@ struct PrincipledConfig {
 };
 /// Disney's material as in Mitsuba 3's `principled`; all numbers in [0, 1].
 std::unique_ptr<Bsdf> make_principled(const PrincipledConfig& config);
+
+struct PrincipledThinConfig {
+  Color base_color{Rgb(0.5f)};
+  Scalar eta = 1.5f, roughness = 0.5f, anisotropic = 0, spec_trans = 0, spec_tint = 0;
+  Scalar sheen = 0, sheen_tint = 0, flatness = 0;
+  Scalar diff_trans = 0;  // in [0, 2]: half of it of diffuse light goes through
+};
+/// Disney's material for thin sheets as in Mitsuba 3's `principledthin`; other numbers in [0, 1].
+std::unique_ptr<Bsdf> make_principled_thin(const PrincipledThinConfig& config);
 
 struct CoatingConfig {
   float eta = 1.5046f / 1.000277f;

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/bsdf_makers.h"
+#include "core/bsdf_principled_parts.h"
 #include "core/constants.h"
 #include "core/fresnel.h"
 #include "core/sampling.h"
@@ -15,21 +16,10 @@
 namespace octolux {
 namespace {
 
-float mix(float t, float a, float b) { return a + (b - a) * t; }
-
-/// alpha along the tangent and across (Burley 2012, 5.4).
-Vec2 alphas(float roughness, float anisotropic) {
-  const float aspect = std::sqrt(1 - 0.9f * anisotropic);
-  const float r2 = roughness * roughness;
-  return {std::max(0.001f, r2 / aspect), std::max(0.001f, r2 * aspect)};
-}
-
 Lobes main_lobe(const PrincipledConfig& c) {
   const Vec2 a = alphas(c.roughness.mean(), c.anisotropic.mean());
   return microfacet_lobe(std::min(a.x, a.y));
 }
-
-bool present(const Scalar& s) { return !s.is_constant() || s.mean() > 0; }
 
 /// The clear coat's distribution: GTR with exponent 1.
 struct Gtr1 {
@@ -112,12 +102,6 @@ class Principled final : public Bsdf {
     float roughness, metallic, spec_tint, clearcoat, sheen, sheen_tint, flatness;
     float opaque;  // share of the diffuse base
     float glass;   // share of glass
-
-    /// The base's colour without its brightness.
-    Rgb tint() const {
-      const float y = luminance(base);
-      return y > 0 ? base / y : Rgb(1);
-    }
   };
   Material material(const SurfacePoint& at) const {
     const TexturePoint& uv = at.uv;
@@ -179,7 +163,8 @@ class Principled final : public Bsdf {
       fresnel = Rgb((1 - m.metallic) * (1 - m.spec_tint) * h.fresnel) +
                 schlick(m.base, h.wo_m) * m.metallic;
       if (m.spec_tint > 0) {
-        fresnel += schlick(m.tint() * (plain * plain), h.wo_m) * ((1 - m.metallic) * m.spec_tint);
+        fresnel +=
+            schlick(tint_of(m.base) * (plain * plain), h.wo_m) * ((1 - m.metallic) * m.spec_tint);
       }
     }
     return fresnel * (0.25f * d_g(m, wo, wi, h));
@@ -202,15 +187,9 @@ class Principled final : public Bsdf {
   }
 
   static Rgb diffuse(const Material& m, Vec3 wo, Vec3 wi, const Half& h) {
-    const float so = schlick_weight(wo.z), si = schlick_weight(wi.z);
-    const float retro = 2 * m.roughness * h.wi_m * h.wi_m;
-    const float lambert =
-        (1 - 0.5f * so) * (1 - 0.5f * si) + retro * (so + si + so * si * (retro - 1));
-    const float fss = mix(so, 1, 0.5f * retro) * mix(si, 1, 0.5f * retro);
-    const float flat = 1.25f * (fss * (1 / (wo.z + wi.z) - 0.5f) + 0.5f);
-    Rgb sum = m.base * (m.opaque * kInvPi * mix(m.flatness, lambert, flat));
+    Rgb sum = m.base * (m.opaque * disney_diffuse(m.roughness, m.flatness, wo.z, wi.z, h.wi_m));
     if (m.sheen > 0) {
-      const Rgb colour = Rgb(1 - m.sheen_tint) + m.tint() * m.sheen_tint;
+      const Rgb colour = Rgb(1 - m.sheen_tint) + tint_of(m.base) * m.sheen_tint;
       sum += colour * (m.sheen * (1 - m.metallic) * schlick_weight(h.wi_m));
     }
     return sum;

@@ -2,9 +2,9 @@
 // in common, which is choosing between the two lobes and respecting the kinds asked for. One-sided.
 //
 // Model supplies the physics:
-//   Rgb coat(float cos_m)                    Fresnel reflectance of the coat's microfacets
+//   Rgb coat(at, float cos_m)                Fresnel reflectance of the coat's microfacets
 //   Rgb base(at, float cos_o, float cos_i)   f of the base under the coat [sr^-1]
-//   float coat_share(float cos_o)            probability of choosing the coat when both are asked
+//   float coat_share(at, float cos_o)        probability of choosing the coat when both are asked
 //   Rgb albedo(at)
 #pragma once
 
@@ -34,21 +34,21 @@ class RoughCoat final : public Bsdf {
     Rgb sum(0);
     if (any(asked & coat_kind_)) {
       const Microfacet::Reflection r = microfacet_.reflection(wo, wi);
-      sum += model_.coat(r.cos_m) * r.f;
+      sum += model_.coat(at, r.cos_m) * r.f;
     }
     if (any(asked & base_kind_)) sum += model_.base(at, wo.z, wi.z);
     return sum;
   }
 
-  float pdf_w(const SurfacePoint&, Vec3 wo, Vec3 wi, Lobes asked) const override {
+  float pdf_w(const SurfacePoint& at, Vec3 wo, Vec3 wi, Lobes asked) const override {
     if (wo.z <= 0 || wi.z <= 0 || !has(asked)) return 0;
-    return pdf_w(wo, wi, coat_probability(wo.z, asked));
+    return pdf_w(wo, wi, coat_probability(at, wo.z, asked));
   }
 
   std::optional<BsdfSample> sample(const SurfacePoint& at, Vec3 wo, float u_lobe, Vec2 u,
                                    Lobes asked, Carried carried) const override {
     if (wo.z <= 0 || !has(asked)) return std::nullopt;
-    const float p = coat_probability(wo.z, asked);
+    const float p = coat_probability(at, wo.z, asked);
     const bool coat = u_lobe < p;
     const Vec3 wi =
         coat ? reflect(wo, microfacet_.sample_visible(wo, u)) : sample_cosine_hemisphere(u);
@@ -63,9 +63,9 @@ class RoughCoat final : public Bsdf {
   Rgb albedo(const SurfacePoint& at) const override { return model_.albedo(at); }
 
  private:
-  float coat_probability(float cos_o, Lobes asked) const {
+  float coat_probability(const SurfacePoint& at, float cos_o, Lobes asked) const {
     if (!any(asked & coat_kind_)) return 0;
-    return any(asked & base_kind_) ? model_.coat_share(cos_o) : 1.0f;
+    return any(asked & base_kind_) ? model_.coat_share(at, cos_o) : 1.0f;
   }
 
   float pdf_w(Vec3 wo, Vec3 wi, float p) const {

@@ -28,7 +28,7 @@ class PlasticModel {
     specular_weight_ = diffuse + specular > 0 ? specular / (diffuse + specular) : 1;
   }
 
-  Rgb coat(float cos_m) const {
+  Rgb coat(const SurfacePoint&, float cos_m) const {
     return config_.specular_reflectance * fresnel_dielectric(cos_m, config_.eta).reflectance;
   }
 
@@ -36,7 +36,7 @@ class PlasticModel {
     return reflectance(at) * (kInvPi * transmittance_(cos_o) * transmittance_(cos_i));
   }
 
-  float coat_share(float cos_o) const {
+  float coat_share(const SurfacePoint&, float cos_o) const {
     const float t = transmittance_(cos_o);
     const float specular = (1 - t) * specular_weight_;
     const float diffuse = t * (1 - specular_weight_);

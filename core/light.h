@@ -100,6 +100,15 @@ struct SpotConfig {
 /// Mitsuba's `spot`.
 std::unique_ptr<Light> make_spot_light(const SpotConfig& config);
 
+struct ProjectorConfig {
+  Affine to_world;  // the light is at its origin and shines along +z; uneven scales do not count
+  Color picture{Rgb(1)};  // irradiance / pi [W m^-2] of a screen at distance 1
+  float width = 1;        // of the screen, along x
+  float aspect = 1;       // width / height
+};
+/// Mitsuba 3's `projector`: u falls along x, v along y, as a camera there would see it.
+std::unique_ptr<Light> make_projector_light(const ProjectorConfig& config);
+
 std::unique_ptr<EnvironmentLight> make_constant_light(Rgb radiance);
 /// `image` is latitude-longitude as in Mitsuba 3, before `to_world`: the top row is +y, the bottom
 /// row -y; u = 0 (the left edge) is -z, u = 1/4 is +x, u = 1/2 +z, u = 3/4 -x. Of `to_world` only

@@ -12,6 +12,7 @@
 #include "core/distribution.h"
 #include "core/frame.h"
 #include "core/light.h"
+#include "core/light_parts.h"
 #include "core/quadric.h"
 #include "core/sampling.h"
 #include "core/vec3d.h"
@@ -20,15 +21,6 @@ namespace octolux {
 namespace {
 
 using std::numbers::pi;
-
-/// `pdf_a` [m^-2] at y as density [sr^-1] of directions at x; 0 where y's front does not face x.
-float to_pdf_w(double pdf_a, Vec3 x, const SurfacePoint& y) {
-  const Vec3d to_x = Vec3d(x) - Vec3d(y.position);
-  const double distance2 = dot(to_x, to_x);
-  const double distance_cos = dot(Vec3d(y.ng), to_x);
-  if (!(distance_cos > 0)) return 0;
-  return static_cast<float>(pdf_a * distance2 * std::sqrt(distance2) / distance_cos);
-}
 
 /// Radiance, and what all area lights do with a point once they have it.
 class EmittingSurface : public AreaLight {

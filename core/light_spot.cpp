@@ -2,22 +2,12 @@
 // cutoff; a texture may be put in front like a slide. Semantics of Mitsuba's `spot`.
 #include <cmath>
 
-#include "core/frame.h"
 #include "core/light.h"
+#include "core/light_frame.h"
 #include "core/sampling.h"
-#include "core/vec3d.h"
 
 namespace octolux {
 namespace {
-
-/// Orthonormal columns of A: z, then x, then y, each less its part along those before.
-Frame frame_of(const Affine& a) {
-  const auto column = [&a](int j) { return Vec3d(a.m[0][j], a.m[1][j], a.m[2][j]); };
-  const Vec3d z(unit_or(column(2), {0, 0, 1}));
-  const Vec3d x(unit_or(column(0) - z * dot(z, column(0)), Frame::from_normal(to_float(z)).s));
-  const Vec3d y = cross(z, x);
-  return {to_float(x), to_float(y * (dot(y, column(1)) < 0 ? -1 : 1)), to_float(z)};
-}
 
 class SpotLight final : public Light {
  public:

@@ -28,6 +28,8 @@ class Texture {
   virtual Vec2 gradient(const TexturePoint& /*at*/) const { return {0, 0}; }
   /// No component is larger than this.
   virtual float maximum() const = 0;
+  /// Width over height of its picture, in pixels; 1 if it has none.
+  virtual float aspect() const { return 1; }
 };
 
 /// What a BSDF parameter holds: a constant without a virtual call, or a Texture of the scene (not

@@ -34,6 +34,9 @@ class BitmapTexture final : public Texture {
 
   Rgb mean() const override { return mean_; }
   float maximum() const override { return std::max(maximum_, max_outside()); }
+  float aspect() const override {
+    return static_cast<float>(image_.width) / static_cast<float>(image_.height);
+  }
 
   /// Exact derivative of the bilinear interpolation, carried back through to_uv.
   Vec2 gradient(const TexturePoint& uv) const override {

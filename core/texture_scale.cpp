@@ -12,6 +12,7 @@ class ScaleTexture final : public Texture {
   Rgb eval(const TexturePoint& uv) const override { return inner_.eval(uv) * factor_; }
   Rgb mean() const override { return inner_.mean() * factor_; }
   float maximum() const override { return inner_.maximum() * max_component(factor_); }
+  float aspect() const override { return inner_.aspect(); }
   /// Colour factors are rare here, and count by their luminance.
   Vec2 gradient(const TexturePoint& uv) const override {
     return inner_.gradient(uv) * luminance(factor_);
@@ -29,6 +30,7 @@ class ClampedTexture final : public Texture {
   Rgb eval(const TexturePoint& uv) const override { return clamped(inner_.eval(uv)); }
   Rgb mean() const override { return clamped(inner_.mean()); }
   float maximum() const override { return std::min(inner_.maximum(), 1.0f); }
+  float aspect() const override { return inner_.aspect(); }
   Vec2 gradient(const TexturePoint& uv) const override { return inner_.gradient(uv); }
 
  private:

@@ -10,7 +10,7 @@ namespace {
 /// One light sample's contribution, not yet divided by the number of samples.
 Rgb sample_one_light(Tracer& tracer, const LightSampler::Choice& choice, Vec2 u,
                      const Scattering& at, const DirectStrategy& strategy) {
-  const std::optional<LightSample> light = choice.light->sample(at.point().position, u);
+  const std::optional<LightSample> light = choice.sample(at.point().position, u);
   if (!light) return Rgb(0);
   const Rgb scattered = at.f_cos(light->wi, strategy.lobes) * light->radiance;
   if (is_black(scattered)) return Rgb(0);
@@ -57,9 +57,7 @@ Rgb emitted(const LightSampler& lights, const SurfaceHit& hit, Vec3 wo, const Ar
   if (!hit.light) return Rgb(0);
   const Rgb radiance = hit.light->radiance(hit.point, wo);
   if (is_black(radiance) || arrival.light_samples == 0) return radiance;
-  const float pdf_w = lights.pmf_of_shape(arrival.from, hit.point.shape) *
-                      hit.light->pdf_w(arrival.from.position, hit.point);
-  return radiance * bsdf_share(arrival, pdf_w);
+  return radiance * bsdf_share(arrival, lights.pdf_w(arrival.from, *hit.light, hit.point));
 }
 
 Rgb environment(const Scene& scene, const LightSampler& lights, Vec3 wi, const Arrival& arrival) {

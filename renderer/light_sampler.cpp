@@ -11,6 +11,18 @@
 
 namespace octolux {
 
+namespace {
+
+/// Lamps of fewer triangles are not cut. One as large as the scene is cut into kMostParts, smaller
+/// ones into so many fewer: what is small is seen from far, where its parts are all alike, and a
+/// deeper tree takes longer. All together at most kMostPartsInAll.
+constexpr std::size_t kManyTriangles = 16;
+constexpr int kMostParts = 64, kMostPartsInAll = 1 << 14;
+/// A part counts as no less than this share of its mesh, so that weights are above 0.
+constexpr double kLeastShare = 1e-12;
+
+}  // namespace
+
 LightSampler::LightSampler(const Scene& scene) {
   std::vector<double> power;
   for (const auto& light : scene.lights) {
@@ -20,19 +32,39 @@ LightSampler::LightSampler(const Scene& scene) {
   }
   emission_ = Distribution1D(power);
   if (empty()) return;
+  cut(scene);
   divide(power);
 
   for (std::size_t i = 0; i < infinite_.size(); ++i) {
     if (infinite_[i] == scene.environment) pmf_of_environment_ = kinds_.pmf(static_cast<int>(i));
   }
-  std::vector<int> finite_of_light(lights_.size(), -1);
+  std::vector<int> first(lights_.size(), -1);
   for (std::size_t i = 0, next = 0; i < lights_.size(); ++i) {
-    if (next < finite_.size() && lights_[i] == finite_[next]) {
-      finite_of_light[i] = static_cast<int>(next++);
-    }
+    if (next >= finite_.size() || lights_[i] != finite_[next].light) continue;
+    first[i] = static_cast<int>(next);
+    next += parts_[i] ? static_cast<std::size_t>(parts_[i]->size()) : 1;
   }
   for (const Shape& shape : scene.shapes) {
-    finite_of_shape_.push_back(shape.light >= 0 ? finite_of_light[shape.light] : -1);
+    leaves_of_shape_.push_back(
+        shape.light < 0 ? Leaves{} : Leaves{parts_[shape.light].get(), first[shape.light]});
+  }
+}
+
+/// Cuts meshes of many triangles into parts, if they emit.
+void LightSampler::cut(const Scene& scene) {
+  parts_.resize(lights_.size());
+  const float scene_radius = scene.bounds.radius();
+  int left = kMostPartsInAll;
+  for (const Shape& shape : scene.shapes) {
+    const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry);
+    if (shape.light < 0 || !mesh || mesh->triangles.size() < kManyTriangles) continue;
+    if (!(mean(lights_[shape.light]->power()) > 0) || !(scene_radius > 0)) continue;
+    const float size = std::min(1.0f, bounds(shape).radius() / scene_radius);
+    const int most = std::min(left, static_cast<int>(std::ceil(size * kMostParts)));
+    if (most < 2) continue;
+    const auto& light = static_cast<const AreaLight&>(*lights_[shape.light]);
+    parts_[shape.light] = std::make_unique<MeshParts>(*mesh, light, most);
+    left -= parts_[shape.light]->size();
   }
 }
 
@@ -43,9 +75,16 @@ void LightSampler::divide(const std::vector<double>& power) {
   double in_tree = 0;
   for (std::size_t i = 0; i < lights_.size(); ++i) {
     if (power[i] == 0) continue;
-    if (const std::optional<LightExtent> extent = lights_[i]->extent()) {
+    if (const MeshParts* parts = parts_[i].get()) {
+      for (int k = 0; k < parts->size(); ++k) {
+        const double share = std::max(parts->share(k), kLeastShare);
+        bounds.push_back({parts->extent(k), std::sqrt(power[i]) * share});
+        finite_.push_back({lights_[i], parts, k});
+      }
+      in_tree += power[i];
+    } else if (const std::optional<LightExtent> extent = lights_[i]->extent()) {
       bounds.push_back({*extent, std::sqrt(power[i])});
-      finite_.push_back(lights_[i]);
+      finite_.push_back({lights_[i]});
       in_tree += power[i];
     } else {
       weights.push_back(power[i]);
@@ -70,7 +109,8 @@ LightSampler::Choice LightSampler::sample(const Receiver& at, float u) const {
     u = kind.u;
   }
   const LightTree::Choice chosen = tree_.sample(at, u);
-  return {finite_[chosen.light], share * chosen.pmf};
+  const Finite& finite = finite_[chosen.light];
+  return {finite.light, share * chosen.pmf, finite.parts, finite.part};
 }
 
 LightSampler::Choice LightSampler::sample_for_emission(float u) const {
@@ -79,9 +119,19 @@ LightSampler::Choice LightSampler::sample_for_emission(float u) const {
   return {lights_[chosen.index], chosen.pmf};
 }
 
-float LightSampler::pmf_of_shape(const Receiver& at, std::uint32_t shape) const {
-  if (finite_of_shape_.empty() || finite_of_shape_[shape] < 0) return 0;
-  return pmf_of_tree_ * tree_.pmf(at, finite_of_shape_[shape]);
+float LightSampler::pmf_of_shape(const Receiver& at, std::uint32_t shape,
+                                 std::uint32_t primitive) const {
+  if (leaves_of_shape_.empty() || leaves_of_shape_[shape].first < 0) return 0;
+  const Leaves& leaves = leaves_of_shape_[shape];
+  const int part = leaves.parts ? leaves.parts->part_of(primitive) : 0;
+  return pmf_of_tree_ * tree_.pmf(at, leaves.first + part);
+}
+
+float LightSampler::pdf_w(const Receiver& at, const AreaLight& light, const SurfacePoint& y) const {
+  const float pmf = pmf_of_shape(at, y.shape, y.primitive);
+  if (pmf == 0) return 0;
+  const MeshParts* parts = leaves_of_shape_[y.shape].parts;
+  return pmf * (parts ? parts->pdf_w(at.position, y) : light.pdf_w(at.position, y));
 }
 
 }  // namespace octolux

@@ -2,14 +2,17 @@
 // tree that knows where they are (light_tree.h). Infinite ones reach every point alike; they and
 // the tree as a whole share the probability, half of it evenly, half by power. Photons leave lights
 // by power alone, so that all carry about the same flux. A light without power is never chosen. No
-// light at all is legal: then nothing is ever chosen. Immutable, so thread-safe.
+// light at all is legal: then nothing is ever chosen. A mesh of many triangles stands in the tree
+// part by part (core/light_parts.h). Immutable, so thread-safe.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/distribution.h"
 #include "core/light.h"
+#include "core/light_parts.h"
 #include "renderer/light_tree.h"
 
 namespace octolux {
@@ -24,14 +27,25 @@ class LightSampler {
   struct Choice {
     const Light* light = nullptr;  // nullptr: there is nothing to choose
     float pmf = 0;
+    const MeshParts* parts = nullptr;  // if it is but one part of the light
+    int part = 0;
+
+    /// As Light::sample.
+    std::optional<LightSample> sample(Vec3 x, Vec2 u) const {
+      return parts ? parts->sample(part, x, u) : light->sample(x, u);
+    }
   };
   /// A light for next-event estimation at `at`; `u` uniform in [0, 1). O(log lights).
   Choice sample(const Receiver& at, float u) const;
   /// A light for a photon to leave, exactly in proportion to power (mean of the channels).
   Choice sample_for_emission(float u) const;
 
-  /// Probability that `sample` chooses the area light that shape `shape` is; 0 if it is none.
-  float pmf_of_shape(const Receiver& at, std::uint32_t shape) const;
+  /// Probability that `sample` chooses the area light that shape `shape` is, or the part of it that
+  /// triangle `primitive` is in; 0 if it is none.
+  float pmf_of_shape(const Receiver& at, std::uint32_t shape, std::uint32_t primitive = 0) const;
+  /// Density [sr^-1] with which a choice by `sample` and a sample of it choose the direction from
+  /// `at` to y, which is on `light`.
+  float pdf_w(const Receiver& at, const AreaLight& light, const SurfacePoint& y) const;
   /// Probability that `sample` chooses the environment; 0 if there is none.
   float pmf_of_environment() const { return pmf_of_environment_; }
 
@@ -41,16 +55,30 @@ class LightSampler {
   double total_power() const { return emission_.total(); }
 
  private:
+  /// A leaf of the tree.
+  struct Finite {
+    const Light* light = nullptr;
+    const MeshParts* parts = nullptr;  // if it is one of these
+    int part = 0;
+  };
   void divide(const std::vector<double>& power);
+  void cut(const Scene& scene);
 
   std::vector<const Light*> lights_;
   Distribution1D emission_;
-  std::vector<const Light*> finite_, infinite_;  // those with power; as in the tree, as in `kinds_`
+  std::vector<std::unique_ptr<MeshParts>> parts_;  // per light; nullptr: it is not cut
+  std::vector<Finite> finite_;                     // those with power, as in the tree
+  std::vector<const Light*> infinite_;             // those with power, as in `kinds_`
   LightTree tree_;
   Distribution1D kinds_;  // every infinite light, then the tree
   float pmf_of_tree_ = 0;
   float pmf_of_environment_ = 0;
-  std::vector<int> finite_of_shape_;  // index into finite_, or -1
+  /// Per shape: its parts or nullptr, and its (first) index in finite_ or -1.
+  struct Leaves {
+    const MeshParts* parts = nullptr;
+    int first = -1;
+  };
+  std::vector<Leaves> leaves_of_shape_;
 };
 
 }  // namespace octolux

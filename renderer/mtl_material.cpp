@@ -54,15 +54,18 @@ int add_glass(const MtlMaterial& m, Scene& scene) {
   return add(make_dielectric(config), scene);
 }
 
+/// The map of that key, where it is above 1 cut to 1; nullptr if there is none.
+const Texture* reflectance_map(const MtlMaterial& m, const char* key, Scene& scene) {
+  const Texture* map = load_map(m, {key}, MtlMapUse::colour, scene);
+  if (!map || map->maximum() <= 1) return map;
+  scene.textures.push_back(make_clamped_texture(*map));
+  return scene.textures.back().get();
+}
+
 /// Kd times map_Kd. A black Kd beside a map is an exporter's way of leaving it out.
 Color diffuse_colour(const MtlMaterial& m, Scene& scene) {
-  if (const Texture* map = load_map(m, {"map_Kd"}, MtlMapUse::colour, scene)) {
-    if (map->maximum() > 1) {
-      scene.textures.push_back(make_clamped_texture(*map));
-      map = scene.textures.back().get();
-    }
-    const bool bare = !m.given.contains("Kd") || is_black(m.kd);
-    return Color(*map, bare ? Rgb(1) : reflectance(m.kd, "Kd", m, scene));
+  if (const Texture* map = reflectance_map(m, "map_Kd", scene)) {
+    return Color(*map, is_black(m.kd) ? Rgb(1) : reflectance(m.kd, "Kd", m, scene));
   }
   if (m.given.contains("map_Kd") && !m.given.contains("Kd")) return Rgb(kDefaultGrey);
   if (!says_nothing(m)) return reflectance(m.kd, "Kd", m, scene);
@@ -71,17 +74,24 @@ Color diffuse_colour(const MtlMaterial& m, Scene& scene) {
   return Rgb(kDefaultGrey);
 }
 
+/// Ks times map_Ks, likewise; a map that is not there changes nothing.
+Color specular_colour(const MtlMaterial& m, Scene& scene) {
+  const Rgb ks = reflectance(m.ks, "Ks", m, scene);
+  const Texture* map = reflectance_map(m, "map_Ks", scene);
+  return map ? Color(*map, is_black(ks) ? Rgb(1) : ks) : Color(ks);
+}
+
 int add_opaque(const MtlMaterial& m, Scene& scene) {
   switch (kind(m)) {
     case MtlKind::mirror: {
       ConductorConfig config;  // eta = 0, k = 1: reflects all
-      config.specular_reflectance = reflectance(m.ks, "Ks", m, scene);
+      config.specular_reflectance = specular_colour(m, scene);
       return add_two_sided(make_conductor(config), scene);
     }
     case MtlKind::glossy: {
       GlossyConfig config;
       config.diffuse = diffuse_colour(m, scene);
-      config.specular = reflectance(m.ks, "Ks", m, scene);
+      config.specular = specular_colour(m, scene);
       config.alpha =
           std::sqrt(2 / (m.ns + 2));  // Walter et al. 2007, between Phong and microfacets
       return add_two_sided(make_glossy(config), scene);
@@ -102,7 +112,8 @@ MtlKind kind(const MtlMaterial& m) {
   const bool reflects =
       m.illum == 3 || m.illum == 5 || (no_model && m.ns >= kMirrorShininess && is_black(m.kd));
   if (reflects && max_component(m.ks) > max_component(m.kd)) return MtlKind::mirror;
-  return is_black(m.ks) || m.illum == 1 ? MtlKind::diffuse : MtlKind::glossy;
+  const bool dull = is_black(m.ks) && !m.given.contains("map_Ks");
+  return dull || m.illum == 1 ? MtlKind::diffuse : MtlKind::glossy;
 }
 
 int add_bsdf(const MtlMaterial& m, Scene& scene) {

@@ -17,8 +17,8 @@
 namespace octolux {
 namespace {
 
-constexpr const char* kReadKeys[] = {"map_Kd",   "map_Ke",   "map_d", "bump",
-                                     "map_bump", "map_Bump", "norm"};
+constexpr const char* kReadKeys[] = {"map_Kd", "map_Ks",   "map_Ke",   "map_d",
+                                     "bump",   "map_bump", "map_Bump", "norm"};
 
 const MtlMap* find_map(const MtlMaterial& m, std::initializer_list<const char*> keys) {
   for (const char* key : keys) {

@@ -64,12 +64,22 @@ void ObjText::read_statement(std::size_t begin, std::size_t end) {
   if (word == "v" || word == "vn" || word == "vt" || word == "f") {
     const std::size_t comment = begin + comment_start({text_.data() + begin, end - begin});
     std::fill_n(text_.begin() + static_cast<std::ptrdiff_t>(comment), end - comment, ' ');
+    if (word == "f") drop_loose_slashes(begin, end);
   } else if (word == "mtllib") {
     const auto rest = trim({text_.data() + word_end, end - word_end});
     if (!rest.empty()) mtllibs_.emplace_back(rest);
   } else if (word != "usemtl" && word != "g" && word != "o" && word != "s") {
     const bool room = ignored_.size() < 8;  // a file that is no OBJ at all would fill pages
     if (room && !ignored_.contains(std::string(word))) ignored_.emplace(word, line_number(begin));
+  }
+}
+
+/// "1/2/" is "1/2"; tinyobjloader would look for the normal in the next word.
+void ObjText::drop_loose_slashes(std::size_t begin, std::size_t end) {
+  char after = ' ';
+  for (std::size_t i = end; i-- > begin;) {
+    if (text_[i] == '/' && (after == ' ' || after == '\t')) text_[i] = ' ';
+    after = text_[i];
   }
 }
 

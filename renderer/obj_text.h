@@ -34,6 +34,7 @@ class ObjText {
 
  private:
   void join_continued_lines();
+  void drop_loose_slashes(std::size_t begin, std::size_t end);
   void read_statement(std::size_t begin, std::size_t end);
   std::size_t line_number(std::size_t offset) const;
 

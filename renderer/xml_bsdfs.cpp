@@ -179,6 +179,21 @@ Made principled(Properties& p, SceneBuilder& b) {
                           .flatness = b.scalar(p, "flatness", 0)});
 }
 
+Made principled_thin(Properties& p, SceneBuilder& b) {
+  p.ignore({"diffuse_reflectance_sampling_rate", "specular_reflectance_sampling_rate",
+            "specular_transmittance_sampling_rate", "diffuse_transmittance_sampling_rate"});
+  return make_principled_thin({.base_color = b.color(p, "base_color", 0.5f),
+                               .eta = b.scalar(p, "eta", 1.5f),
+                               .roughness = b.scalar(p, "roughness", 0.5f),
+                               .anisotropic = b.scalar(p, "anisotropic", 0),
+                               .spec_trans = b.scalar(p, "spec_trans", 0),
+                               .spec_tint = b.scalar(p, "spec_tint", 0),
+                               .sheen = b.scalar(p, "sheen", 0),
+                               .sheen_tint = b.scalar(p, "sheen_tint", 0),
+                               .flatness = b.scalar(p, "flatness", 0),
+                               .diff_trans = b.scalar(p, "diff_trans", 0)});
+}
+
 constexpr Plugin<Made (*)(Properties&, SceneBuilder&)> kPlugins[] = {
     {"diffuse", diffuse},
     {"dielectric", dielectric},
@@ -190,6 +205,7 @@ constexpr Plugin<Made (*)(Properties&, SceneBuilder&)> kPlugins[] = {
     {"roughplastic", rough_plastic},
     {"phong", phong},
     {"principled", principled},
+    {"principledthin", principled_thin},
     {"twosided", make_two_sided_bsdf},
     {"mask", make_mask_bsdf},
     {"coating", make_coating_bsdf},

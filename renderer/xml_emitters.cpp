@@ -88,6 +88,24 @@ void spot(Properties& p, SceneBuilder& b) {
   b.scene().lights.push_back(make_spot_light(config));
 }
 
+void projector(Properties& p, SceneBuilder& b) {
+  ProjectorConfig config{.to_world = p.transform("to_world")};
+  const float scale = p.number("scale").value_or(1);
+  if (scale < 0) p.fail("scale", "'scale' must not be negative");
+  const XmlNode* given = p.find("irradiance");
+  if (!given) p.fail("irradiance", "'irradiance' is missing: the picture that is thrown");
+  if (given->object().tag == "texture") {
+    const Texture& picture = b.texture(given->object());
+    config.picture = Color(picture, Rgb(scale));
+    config.aspect = picture.aspect();
+  } else {
+    config.picture = read_emission(p, "irradiance") * scale;
+  }
+  config.width = static_cast<float>(read_extent_x(p, config.aspect));
+  if (is_dark(p, config.picture.mean(), b)) return;
+  b.scene().lights.push_back(make_projector_light(config));
+}
+
 void lone_area(Properties& p, SceneBuilder&) {
   fail(p.node().where, "an area emitter needs a shape: nest it in one, or let one refer to it");
 }
@@ -99,6 +117,7 @@ constexpr Plugin<void (*)(Properties&, SceneBuilder&)> kPlugins[] = {
     {"envmap", environment_map},
     {"directional", directional},
     {"spot", spot},
+    {"projector", projector},
     {"sun", add_sun},
     {"sky", add_sky},
     {"sunsky", add_sun_and_sky},

@@ -31,6 +31,9 @@ struct MadeShape {
 MadeShape make_shape(Properties& properties, SceneBuilder& builder);
 /// Camera, film and filter of the scene.
 void read_sensor(Properties& properties, SceneBuilder& builder);
+/// Extent along x, at distance 1, of a picture of that aspect (width / height) as `fov`, `fov_axis`
+/// and `focal_length` give it.
+double read_extent_x(Properties& properties, double aspect);
 /// Scene::max_depth and hide_emitters.
 void read_integrator(Properties& properties, SceneBuilder& builder);
 

@@ -117,15 +117,21 @@ double read_focal_length(Properties& p) {
   return std::hypot(36, 24) / length;
 }
 
-float read_fov_x(Properties& p, const FilmSize& film) {
+}  // namespace
+
+double read_extent_x(Properties& p, double aspect) {
   const std::string axis = p.choice("fov_axis", {"x", "y", "diagonal", "smaller", "larger"});
-  const double aspect = static_cast<double>(film.width) / film.height;
   const std::optional<float> fov = p.number("fov");
   const double diagonal = read_focal_length(p);
   if (fov && p.find("focal_length")) p.fail("fov", "give either 'fov' or 'focal_length'");
   if (fov && !(*fov > 0 && *fov < 180)) p.fail("fov", "'fov' must lie between 0 and 180 degrees");
-  const double x =
-      fov ? extent_x(extent_of(*fov), axis, aspect) : extent_x(diagonal, "diagonal", aspect);
+  return fov ? extent_x(extent_of(*fov), axis, aspect) : extent_x(diagonal, "diagonal", aspect);
+}
+
+namespace {
+
+float read_fov_x(Properties& p, const FilmSize& film) {
+  const double x = read_extent_x(p, static_cast<double>(film.width) / film.height);
   return static_cast<float>(2 * std::atan(x / 2) * kDegrees);
 }
 

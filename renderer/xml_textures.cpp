@@ -94,9 +94,10 @@ Made raw_constant(Properties& p, SceneBuilder&) {
   return make_bitmap_texture(std::move(image), {});
 }
 
-Made checkerboard(Properties& p, SceneBuilder& b) {
-  const Rgb color0 = b.constant_color(p, "color0", 0.4f);
-  const Rgb color1 = b.constant_color(p, "color1", 0.2f);
+/// Colours may be above 1: a lamp's are; where they may not be, SceneBuilder::color cuts them.
+Made checkerboard(Properties& p, SceneBuilder&) {
+  const Rgb color0 = p.color("color0", ColorRole::reflectance).value_or(Rgb(0.4f));
+  const Rgb color1 = p.color("color1", ColorRole::reflectance).value_or(Rgb(0.2f));
   return make_checkerboard_texture(color0, color1, read_uv_map(p));
 }
 

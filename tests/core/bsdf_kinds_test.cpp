@@ -162,6 +162,30 @@ TEST(RoughDielectric, NormalIncidenceClosedForm) {
   EXPECT_FLOAT_EQ(bsdf->f(kPoint, n, -n, Lobes::all, Carried::radiance).g, t / (eta * eta));
 }
 
+TEST(PrincipledThin, ClosedFormsAndKinds) {
+  // Half of diff_trans of the diffuse light passes, Lambertian, and from both sides alike.
+  const auto sheet =
+      make_principled_thin({.base_color = Rgb(0.2f, 0.5f, 0.8f), .diff_trans = 1.2f});
+  EXPECT_EQ(sheet->lobes(), Lobes::smooth);
+  EXPECT_TRUE(sheet->smooth_transmission());
+  EXPECT_FALSE(make_principled_thin({})->smooth_transmission());
+  const Vec3 wo = direction(0.4, 1);
+  for (const float side : {1.0f, -1.0f}) {
+    const Rgb f = sheet->f(kPoint, wo * side, wo * -side, Lobes::all, Carried::radiance);
+    expect_equal(f, Rgb(0.2f, 0.5f, 0.8f) * (0.6f * kInvPi));
+  }
+  // Along the normal, m = n: f = F D / 4 reflected and base (1 - F) D' / 4 passed, D = 1 / (pi a^2)
+  // with a the roughness squared; D' of the roughness scaled by 0.65 eta - 0.35.
+  const auto clear =
+      make_principled_thin({.base_color = Rgb(0.9f), .roughness = 0.6f, .spec_trans = 1});
+  EXPECT_EQ(clear->lobes(), Lobes::smooth | Lobes::near_specular);
+  const Vec3 n{0, 0, 1};
+  const float a = 0.36f, b = 0.36f * 0.625f * 0.625f;
+  EXPECT_FLOAT_EQ(clear->f(kPoint, n, n, Lobes::all, Carried::flux).g, 0.04f / (4 * kPi * a * a));
+  EXPECT_FLOAT_EQ(clear->f(kPoint, n, -n, Lobes::all, Carried::flux).g,
+                  0.9f * 0.96f / (4 * kPi * b * b));
+}
+
 TEST(TwoSided, BackIsTheFrontOfTheOther) {
   const auto front = make_diffuse(Rgb(0.2f));
   const auto back = make_plastic({});

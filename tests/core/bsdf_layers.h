@@ -96,6 +96,20 @@ inline std::vector<BsdfCase> layered_cases(bool white) {
                      });
                    },
                    false, 1, true});
+  cases.push_back({"principled_thin_all",
+                   [=] {
+                     return single(make_principled_thin({.base_color = colour,
+                                                         .eta = 1.5f,
+                                                         .roughness = 0.7f,
+                                                         .anisotropic = 0.4f,
+                                                         .spec_trans = 0.4f,
+                                                         .spec_tint = 0.5f,
+                                                         .sheen = 0.5f,
+                                                         .sheen_tint = 0.5f,
+                                                         .flatness = 0.4f,
+                                                         .diff_trans = 0.7f}));
+                   },
+                   true, 0.15f});
   cases.push_back({"principled_all",
                    [=] {
                      return single(make_principled({.base_color = colour,

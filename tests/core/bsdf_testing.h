@@ -158,6 +158,15 @@ inline std::vector<BsdfCase> plain_cases(bool white) {
          return single(make_principled({.base_color = tint, .roughness = 0.5f, .spec_trans = 1}));
        },
        true, 0.25f},
+      {"principled_thin",
+       [=] {
+         return single(make_principled_thin({.base_color = tint,
+                                             .eta = 1.4f,
+                                             .roughness = 0.6f,
+                                             .anisotropic = 0.3f,
+                                             .spec_trans = 1}));
+       },
+       true, 0.09f},
       {"two_sided",
        [=] {
          return two_sided(make_diffuse(colour), make_glossy({colour, ks, 0.3f}));

@@ -48,6 +48,21 @@ TEST(Emission, PowersInClosedForm) {
   EXPECT_FLOAT_EQ(sky->power().g, 2 * 4 * kPi * 4 * kPi);
 }
 
+/// A picture of one colour lights a screen evenly, pi times as brightly, and nothing beside it.
+TEST(Emission, ProjectorLightsAScreenEvenly) {
+  const Affine aim = *look_at({0, 0, 0}, {0, 0, 4}, {0, 1, 0});
+  const auto light = make_projector_light({.to_world = aim, .picture = Rgb(2), .aspect = 2});
+  EXPECT_FLOAT_EQ(light->power().r, 2 * kPi * 0.5f);
+  for (const Vec2 p : {Vec2{0, 0}, Vec2{1.99f, 0}, Vec2{-1.5f, 0.9f}, Vec2{1, -0.99f}}) {
+    const auto s = light->sample({p.x, p.y, 4}, {});
+    ASSERT_TRUE(s);
+    EXPECT_NEAR(s->radiance.r * -s->wi.z, 2 * kPi / 16, 16 * 0x1p-23f);
+  }
+  EXPECT_FALSE(light->sample({2.01f, 0, 4}, {}));
+  EXPECT_FALSE(light->sample({0, 1.01f, 4}, {}));
+  EXPECT_FALSE(light->sample({0, 0, -4}, {}));
+}
+
 TEST(Emission, RectanglePhotonsAreUniformAndCosineDistributed) {
   constexpr int kPhotons = 200000, kGrid = 12;
   const LitShape lit("", rectangle(1, 0.5f), {});
@@ -94,6 +109,12 @@ TEST(Emission, PhotonsThroughAWindowAgreeWithNextEventEstimation) {
   const Window window{{0.5f, -0.3f, 0.2f}, Frame::from_normal(normalize({1, 2, -0.5f})), 0.4f};
   const std::unique_ptr<Light> point = make_point_light({2, 1, -1}, {1, 2, 3});
   EXPECT_GT(same_flux_p(*point, window, test++), alpha);
+  const std::unique_ptr<Texture> slide =
+      make_checkerboard_texture({1, 2, 3}, {3, 5, 1}, scaling(3, 2, 1));
+  const Affine aim = *look_at({2, 1, -1}, {0.6f, -0.2f, 0.1f}, {0, 1, 0});
+  const std::unique_ptr<Light> beam = make_projector_light(
+      {.to_world = aim, .picture = Color(*slide), .width = 0.4f, .aspect = 1.5f});
+  EXPECT_GT(same_flux_p(*beam, window, test++), alpha);
   const std::unique_ptr<EnvironmentLight> sky = make_constant_light({1, 2, 3});
   sky->set_scene_bounds({0.4f, 0, 0}, 1);
   EXPECT_GT(same_flux_p(*sky, window, test++), alpha);

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <numeric>
 
 #include "core/rng.h"
 #include "renderer/scene.h"
+#include "tests/core/light_meshes.h"
 #include "tests/stats.h"
 
 namespace octolux {
@@ -71,6 +73,71 @@ TEST(LightSampler, ChoosesAsDocumented) {
   EXPECT_EQ(sampler.pmf_of_shape(kAbove, 3), 0);
   EXPECT_FLOAT_EQ(sampler.pmf_of_environment(), 0.35f);
   EXPECT_NEAR(sampler.total_power(), 10 * std::acos(-1.0), 1e-5);
+}
+
+/// A ball of many triangles over a square, and a point light.
+void fill_with_mesh(Scene& scene) {
+  scene.shapes = {ball_mesh({0, 0, 1}, 0.5f, 6), square(1, 1)};
+  scene.shapes[0].light = 0;
+  scene.lights.push_back(make_area_light(scene.shapes[0], Rgb(1, 2, 3)));
+  scene.lights.push_back(make_area_light(scene.shapes[1], Rgb(0.1f)));
+  scene.lights.push_back(make_point_light({1, 0, 1}, Rgb(0.2f)));
+  scene.bounds = bounds(scene.shapes[0]);  // of which the ball is all: cut into 64 parts
+}
+
+TEST(LightSampler, PartsOfAMeshAreChosenAsItSays) {
+  Scene scene;
+  fill_with_mesh(scene);
+  const LightSampler sampler(scene);
+  const auto triangles = std::get<TriangleMesh>(scene.shapes[0].geometry).triangles.size();
+  constexpr int kDraws = 100000, kParts = 64;
+  for (const Receiver& at : {kAbove, Receiver{{0.1f, 0.8f, 0.9f}, {0, -1, 0}}}) {
+    std::vector<double> counts(kParts + 1, 0.0), expected(kParts + 1, 0.0);
+    const MeshParts* parts = nullptr;
+    Rng rng(1, Stream::test, 92, 0);
+    for (int i = 0; i < kDraws; ++i) {
+      const LightSampler::Choice c = sampler.sample(at, rng.uniform());
+      ++counts[c.parts ? c.part : kParts];
+      const auto s = c.sample(at.position, rng.uniform2());
+      if (!c.parts || !s) continue;
+      parts = c.parts;
+      const auto& light = static_cast<const AreaLight&>(*c.light);
+      ASSERT_NEAR(c.pmf * s->pdf_w / sampler.pdf_w(at, light, s->at), 1, 64 * 0x1p-23f);
+    }
+    ASSERT_TRUE(parts && parts->size() == kParts);
+    for (std::uint32_t t = 0; t < triangles; ++t) {
+      expected[parts->part_of(t)] = kDraws * static_cast<double>(sampler.pmf_of_shape(at, 0, t));
+    }
+    expected[kParts] = kDraws - std::accumulate(expected.begin(), expected.end(), 0.0);
+    EXPECT_GT(expected[kParts], 0);
+    EXPECT_GT(chi2_test_p(counts, expected), sidak(kAlpha, 2));
+  }
+}
+
+/// Unoccluded irradiance, against points uniform over the ball.
+TEST(LightSampler, PartsBringTheLightOfTheMeshWithLessVariance) {
+  Scene scene;
+  scene.shapes = {ball_mesh({0, 0, 1}, 0.5f, 6)};
+  scene.shapes[0].light = 0;
+  scene.lights.push_back(make_area_light(scene.shapes[0], Rgb(1, 2, 3)));
+  scene.bounds = bounds(scene.shapes[0]);
+  const LightSampler sampler(scene);
+  Rng rng(1, Stream::test, 93, 0);
+  const Receiver at{{0.3f, 0.4f, 0.2f}, {0, 0, 1}};
+  const auto value = [&](const std::optional<LightSample>& s, float pmf) {
+    if (!s) return 0.0;
+    const float cosine = std::max(0.0f, dot(s->wi, at.normal));
+    return static_cast<double>(s->radiance.g * cosine / (s->pdf_w * pmf));
+  };
+  Running by_parts, by_area;
+  for (int i = 0; i < 20000; ++i) {
+    const LightSampler::Choice c = sampler.sample(at, rng.uniform());
+    by_parts.add(value(c.sample(at.position, rng.uniform2()), c.pmf));
+    by_area.add(value(scene.lights[0]->sample(at.position, rng.uniform2()), 1));
+  }
+  const double variance = by_parts.variance_of_mean() + by_area.variance_of_mean();
+  EXPECT_GT(z_test_p((by_parts.mean() - by_area.mean()) / std::sqrt(variance)), kAlpha);
+  EXPECT_LT(by_parts.variance(), by_area.variance() / 3);
 }
 
 TEST(LightSampler, PhotonFluxOverPmfIsTheTotalPowerForGreyLights) {

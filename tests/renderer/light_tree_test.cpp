@@ -147,7 +147,7 @@ TEST(LightTree, NeverZeroWhereLightArrives) {
 
 /// Unoccluded irradiance on the receiver by one sample of `choice`.
 double irradiance(const LightSampler::Choice& choice, const Receiver& at, Vec2 u) {
-  const std::optional<LightSample> s = choice.light->sample(at.position, u);
+  const std::optional<LightSample> s = choice.sample(at.position, u);
   if (!s) return 0;
   const float cosine = at.both_sides ? std::abs(dot(s->wi, at.normal)) : dot(s->wi, at.normal);
   if (!(cosine > 0)) return 0;

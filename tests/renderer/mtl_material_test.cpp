@@ -6,7 +6,9 @@
 
 #include <cmath>
 
+#include "core/constants.h"
 #include "core/error.h"
+#include "core/image_io.h"
 #include "tests/renderer/temp_files.h"
 
 namespace octolux {
@@ -159,6 +161,34 @@ TEST(MtlMaterial, OpacityLetsLightPassStraight) {
   EXPECT_TRUE(made->bsdf->passes_light());
   EXPECT_EQ(made->bsdf->pass_through({}, {0, 0, 1}), Rgb(0.75f));
   EXPECT_FALSE(make("Kd 0.5 0.5 0.5\nd 0.999\n")->bsdf->passes_light());  // 8-bit opaque
+}
+
+TEST(MtlMaterial, SpecularMapScalesKs) {
+  const test::TempFolder folder;
+  Image image(2, 1);
+  image.pixels = {Rgb(0), Rgb(1)};
+  write_png(folder.path("ks.png"), image);
+  const MtlFile file = read_mtl_file(folder.write(
+      "a.mtl",
+      "newmtl a\nKd .2 .2 .2\nKs .5 .5 .5\nmap_Ks ks.png\nnewmtl b\nKd .5 .5 .5\nmap_Ks ks.png\n"));
+  for (const MtlMaterial& m : file.materials) {
+    EXPECT_EQ(kind(m), MtlKind::glossy);
+    Scene scene;
+    const Bsdf& bsdf = *scene.bsdfs[static_cast<std::size_t>(add_bsdf(m, scene))];
+    EXPECT_TRUE(scene.warnings.empty());
+    // Straight down and back f is Ks D / 4, and the base under the coat.
+    const auto reflected = [&](float u) {
+      SurfacePoint at;
+      at.uv = Vec2{u, 0.5f};
+      return bsdf.f(at, {0, 0, 1}, {0, 0, 1}, Lobes::near_specular | Lobes::smooth,
+                    Carried::radiance);
+    };
+    const float base = m.name == "a" ? 0.2f * kInvPi : 0.5f * kInvPi;
+    EXPECT_NEAR(reflected(0.25f).g, base, 1e-5f);  // black: no coat
+    const auto all = make(m.name == "a" ? "Kd .2 .2 .2\nKs .5 .5 .5\n" : "Kd .5 .5 .5\nKs 1 1 1\n");
+    EXPECT_NEAR(reflected(0.75f).g,
+                all->bsdf->f({}, {0, 0, 1}, {0, 0, 1}, Lobes::all, Carried::radiance).g, 1e-5f);
+  }
 }
 
 TEST(MtlMaterial, Warnings) {

@@ -111,6 +111,15 @@ TEST(ObjFile, BadNumbersNameTheirLine) {
             "4: a vertex needs three finite numbers");
 }
 
+TEST(ObjFile, SlashesWithNothingBehindThemCountNothing) {
+  const ObjFile file = read(std::string(kSquare) + "vt 0 0\nvn 0 0 1\nf 1/1/ 2// 3/\t4/1/1 # /\n");
+  ASSERT_EQ(file.triangles.size(), 2u);
+  EXPECT_EQ(file.triangles[0].corners[0].tex_coord, 0);
+  EXPECT_EQ(file.triangles[0].corners[0].normal, -1);
+  EXPECT_EQ(file.triangles[0].corners[1].tex_coord, -1);
+  EXPECT_EQ(file.triangles[0].corners[2].normal, -1);
+}
+
 TEST(ObjFile, BadIndicesNameTheirLine) {
   const std::string v = std::string(kSquare) + "vt 0 0\nvn 0 0 1\n";
   EXPECT_EQ(error_of(v + "f 1 2 5\nf 1 2 3\n"), "7: face index 5 is no vertex (the file has 4)");

@@ -76,6 +76,35 @@ TEST(XmlMaterials, MistakesAreOneClearError) {
   }
 }
 
+TEST(XmlMaterials, ACheckerboardIsCutToOneOnlyWhereItReflects) {
+  const std::string board =
+      "type='checkerboard'><rgb name='color0' value='3'/><rgb name='color1' "
+      "value='1'/></texture>";
+  const auto lamp =
+      load_text(scene_with("<shape type='rectangle'><emitter type='area'><texture "
+                           "name='radiance' " +
+                           board + "</emitter></shape>"));
+  EXPECT_TRUE(lamp->warnings.empty());
+  // The mean of 3 and 1 over 2 x 2; integrated over 128 x 128 points.
+  EXPECT_NEAR(lamp->lights[0]->power().r, 2 * 4 * kPi, 2 * 4 * kPi / 128);
+  const auto wall = load_text(scene_with("<bsdf type='diffuse'><texture name='reflectance' " +
+                                         board + "</bsdf><emitter type='constant'/>"));
+  ASSERT_EQ(wall->warnings.size(), 1u);
+  EXPECT_NE(wall->warnings[0].find("values above 1; clamped"), std::string::npos);
+}
+
+TEST(XmlMaterials, ProjectorsAndThinSheetsLoad) {
+  const auto scene = load_text(scene_with(R"(
+    <bsdf type="principledthin"><float name="diff_trans" value="1.4"/>
+      <texture name="spec_trans" type="checkerboard"/></bsdf>
+    <emitter type="projector"><float name="fov" value="90"/><float name="scale" value="2"/>
+      <rgb name="irradiance" value="0.5"/></emitter>)"));
+  EXPECT_TRUE(scene->warnings.empty());
+  EXPECT_NEAR(scene->lights[0]->power().g, kPi * 4, 1e-5f);  // a screen of 2 x 2 at distance 1
+  EXPECT_NE(error_of("<emitter type='projector'/>").find("'irradiance' is missing"),
+            std::string::npos);
+}
+
 TEST(XmlMaterials, PathGuidingIsIgnoredWithOneWarning) {
   const auto scene = load_text(
       scene_with("<bsdf type='diffuse' id='a'><boolean name='usePathGuiding' value='false'/></bsdf>"

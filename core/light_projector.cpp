@@ -1,0 +1,85 @@
+// A point that throws a picture: the counterpart of a perspective camera. A screen at distance 1 at
+// right angles to the axis receives pi times the picture, in the units of the file (Mitsuba 3's
+// `projector`); seen along w, at the angle theta to the axis, the intensity is that over
+// cos^3 theta. Immutable, so thread-safe.
+#include <cmath>
+
+#include "core/light.h"
+#include "core/light_frame.h"
+#include "core/sampling.h"
+
+namespace octolux {
+namespace {
+
+class Projector final : public Light {
+ public:
+  explicit Projector(const ProjectorConfig& config)
+      : config_(config),
+        position_(config.to_world.point({0, 0, 0})),
+        frame_(frame_of(config.to_world)),
+        half_{config.width / 2, config.width / 2 / config.aspect} {
+    constexpr std::uint32_t n = 256 * 256;
+    double sum[3] = {};
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const Rgb c = config_.picture(shifted_hammersley(i, n, {0.5f / n, 0.5f / n}));
+      for (int k = 0; k < 3; ++k) sum[k] += static_cast<double>(c[k]);
+    }
+    const double scale = static_cast<double>(kPi * area()) / n;
+    power_ = {static_cast<float>(sum[0] * scale), static_cast<float>(sum[1] * scale),
+              static_cast<float>(sum[2] * scale)};
+  }
+
+  std::optional<LightSample> sample(Vec3 x, Vec2 /*u*/) const override {
+    const Vec3 d = position_ - x;
+    const float distance2 = length2(d);
+    if (!(distance2 > 0)) return std::nullopt;
+    LightSample s;
+    s.wi = normalize(d);
+    s.radiance = intensity(frame_.to_local(-s.wi)) / distance2;
+    if (!is_finite(s.radiance) || is_black(s.radiance)) return std::nullopt;
+    s.pdf_w = 1;
+    s.delta = true;
+    s.at.position = position_;
+    s.at.ng = s.at.ns = -s.wi;
+    return s;
+  }
+
+  /// Uniform over the screen.
+  EmittedPhoton emit(Vec2 /*u_position*/, Vec2 u_direction) const override {
+    const Vec3 screen{(1 - 2 * u_direction.x) * half_.x, (1 - 2 * u_direction.y) * half_.y, 1};
+    return {{position_, normalize(frame_.to_world(screen))},
+            config_.picture(u_direction) * (kPi * area())};
+  }
+
+  Rgb power() const override { return power_; }
+
+  std::optional<LightExtent> extent() const override {
+    const float corner = std::atan(std::hypot(half_.x, half_.y));
+    return LightExtent{{position_, position_}, frame_.n, corner, 0};
+  }
+
+ private:
+  float area() const { return 4 * half_.x * half_.y; }
+
+  /// [W sr^-1] along a local direction.
+  Rgb intensity(Vec3 w) const {
+    if (!(w.z > 0)) return Rgb(0);
+    const float u = 0.5f - w.x / (w.z * 2 * half_.x), v = 0.5f - w.y / (w.z * 2 * half_.y);
+    if (!(u >= 0 && u <= 1 && v >= 0 && v <= 1)) return Rgb(0);
+    return config_.picture(Vec2{u, v}) * (kPi / (w.z * w.z * w.z));
+  }
+
+  ProjectorConfig config_;
+  Vec3 position_;
+  Frame frame_;
+  Vec2 half_;  // of the screen at distance 1
+  Rgb power_;
+};
+
+}  // namespace
+
+std::unique_ptr<Light> make_projector_light(const ProjectorConfig& config) {
+  return std::make_unique<Projector>(config);
+}
+
+}  // namespace octolux
