@@ -44,7 +44,7 @@ TEST(Instance, FrontStaysInFront) {
     EXPECT_GT(dot(placed.ns, expected.ns), 0.99999f);
     EXPECT_EQ(placed.ns == placed.ng, !vertex_normals);
   }
-  const auto& quadric = std::get<Quadric>(sphere().geometry);
+  const auto quadric = std::get<Quadric>(sphere().geometry);
   const SurfacePoint pole = place(surface_point(quadric, {0, 1, 0}), instance);
   EXPECT_GT(dot(pole.ng, pole.position - kMap.point({0, 0, 0})), 0);
 }
