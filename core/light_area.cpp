@@ -8,11 +8,12 @@
 // forms that do not cancel, from touching distance to a million radii away.
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
-#include "core/distribution.h"
+#include "core/area_sampling.h"
 #include "core/frame.h"
 #include "core/light.h"
-#include "core/light_parts.h"
+#include "core/mesh_patch.h"
 #include "core/quadric.h"
 #include "core/sampling.h"
 #include "core/vec3d.h"
@@ -32,14 +33,9 @@ class EmittingSurface : public AreaLight {
   }
 
  protected:
+  /// `y`, chosen with that density [m^-2], for a place x.
   std::optional<LightSample> towards(const SurfacePoint& y, Vec3 x, double pdf_a) const {
-    LightSample s;
-    s.pdf_w = to_pdf_w(pdf_a, x, y);
-    if (!(s.pdf_w > 0) || std::isinf(s.pdf_w)) return std::nullopt;
-    s.wi = unit_or(Vec3d(y.position) - Vec3d(x), {0, 0, 1});
-    s.radiance = radiance_(y.uv);
-    s.at = y;
-    return s;
+    return octolux::towards(y, x, pdf_a, radiance_(y.uv));
   }
 
   EmittedPhoton emit_from(const SurfacePoint& y, double pdf_a, Vec2 u_direction) const {
@@ -68,78 +64,45 @@ class EmittingSurface : public AreaLight {
   const Color radiance_;  // [W m^-2 sr^-1]
 };
 
+std::vector<std::uint32_t> all_triangles(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> all(mesh.triangles.size());
+  std::iota(all.begin(), all.end(), 0u);
+  return all;
+}
+
 class MeshLight final : public EmittingSurface {
  public:
-  MeshLight(const TriangleMesh& mesh, Color radiance) : EmittingSurface(radiance), mesh_(mesh) {
-    std::vector<double> areas;
-    for (const auto& [a, b, c] : mesh.triangles) {
-      const Vec3d p(mesh.positions[a]);
-      const Vec3d normal = cross(Vec3d(mesh.positions[b]) - p, Vec3d(mesh.positions[c]) - p);
-      areas.push_back(length(normal) / 2);
-    }
-    triangles_ = Distribution1D(areas);
+  MeshLight(const TriangleMesh& mesh, Color radiance)
+      : EmittingSurface(radiance), faces_(mesh, all_triangles(mesh)) {
     if (!dark()) {
       power_ = power_of(
-          area(), [this](Vec2 u) { return point(u); },
-          [this](const SurfacePoint&) { return 1 / area(); });
+          faces_.area(), [this](Vec2 u) { return faces_.point(u); },
+          [this](const SurfacePoint&) { return pdf_a(); });
     }
   }
 
   std::optional<LightSample> sample(Vec3 x, Vec2 u) const override {
-    return dark() ? std::nullopt : towards(point(u), x, 1 / area());
+    return dark() ? std::nullopt : towards(faces_.point(u), x, pdf_a());
   }
 
   EmittedPhoton emit(Vec2 u_position, Vec2 u_direction) const override {
     if (dark()) return {{{}, {0, 0, 1}}, Rgb(0)};
-    return emit_from(point(u_position), 1 / area(), u_direction);
+    return emit_from(faces_.point(u_position), pdf_a(), u_direction);
   }
 
   Rgb power() const override { return power_; }
 
   float pdf_w(Vec3 x, const SurfacePoint& y) const override {
-    return dark() ? 0 : to_pdf_w(1 / area(), x, y);
+    return dark() ? 0 : to_pdf_w(pdf_a(), x, y);
   }
 
-  std::optional<LightExtent> extent() const override {
-    LightExtent extent;
-    Vec3d sum;
-    for_each_face([&](const SurfacePoint& corner, float share) {
-      sum = sum + Vec3d(corner.ng) * static_cast<double>(share);
-      for (const std::uint32_t vertex : mesh_.triangles[corner.primitive]) {
-        extent.bounds.add(mesh_.positions[vertex]);
-      }
-    });
-    extent.axis = unit_or(sum, {0, 0, 1});
-    extent.normals = 0;
-    for_each_face([&](const SurfacePoint& corner, float) {
-      const Vec3d n(corner.ng), axis(extent.axis);
-      const auto angle = static_cast<float>(std::atan2(length(cross(n, axis)), dot(n, axis)));
-      extent.normals = std::max(extent.normals, angle);
-    });
-    return extent;
-  }
+  std::optional<LightExtent> extent() const override { return faces_.extent(); }
 
  private:
-  double area() const { return triangles_.total(); }
-  bool dark() const { return area() == 0 || is_black(radiance_.mean()); }
+  double pdf_a() const { return 1 / faces_.area(); }
+  bool dark() const { return faces_.area() == 0 || is_black(radiance_.mean()); }
 
-  /// Calls see(first corner, share of the area) for every triangle that has any.
-  template <class See>
-  void for_each_face(const See& see) const {
-    for (int i = 0; i < triangles_.size(); ++i) {
-      const float share = triangles_.pmf(i);
-      if (share > 0) see(surface_point(mesh_, static_cast<std::uint32_t>(i), 0, 0), share);
-    }
-  }
-
-  SurfacePoint point(Vec2 u) const {
-    const Distribution1D::Sample triangle = triangles_.sample(u.x);
-    const Vec2 b = sample_triangle({triangle.u, u.y});
-    return surface_point(mesh_, static_cast<std::uint32_t>(triangle.index), b.x, b.y);
-  }
-
-  const TriangleMesh& mesh_;
-  Distribution1D triangles_;  // by area [m^2]
+  MeshPatch faces_;
   Rgb power_;
 };
 

@@ -6,25 +6,15 @@
 // Immutable, so thread-safe.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "core/light.h"
-#include "core/vec3d.h"
+#include "core/mesh_patch.h"
 
 namespace octolux {
-
-/// `pdf_a` [m^-2] at y as density [sr^-1] of directions at x; 0 where y's front does not face x.
-inline float to_pdf_w(double pdf_a, Vec3 x, const SurfacePoint& y) {
-  const Vec3d to_x = Vec3d(x) - Vec3d(y.position);
-  const double distance2 = dot(to_x, to_x);
-  const double distance_cos = dot(Vec3d(y.ng), to_x);
-  if (!(distance_cos > 0)) return 0;
-  return static_cast<float>(pdf_a * distance2 * std::sqrt(distance2) / distance_cos);
-}
 
 class MeshParts {
  public:
@@ -32,10 +22,10 @@ class MeshParts {
   /// mesh, must outlive this.
   MeshParts(const TriangleMesh& mesh, const AreaLight& light, int most);
 
-  int size() const { return static_cast<int>(begin_.size()) - 1; }
+  int size() const { return static_cast<int>(parts_.size()); }
   /// The part's share of the mesh's area; may be 0.
-  double share(int part) const;
-  LightExtent extent(int part) const;
+  double share(int part) const { return patch(part).area() / area_; }
+  LightExtent extent(int part) const { return patch(part).extent(); }
 
   /// As Light::sample, but of one part.
   std::optional<LightSample> sample(int part, Vec3 x, Vec2 u) const;
@@ -44,16 +34,13 @@ class MeshParts {
   float pdf_w(Vec3 x, const SurfacePoint& y) const;
 
  private:
-  void split(std::span<std::uint32_t> triangles, int parts);
-  double area(int part) const { return sum_[begin_[part + 1]] - sum_[begin_[part]]; }
-  std::uint32_t choose(int part, float& u) const;
+  const MeshPatch& patch(int part) const { return parts_[static_cast<std::size_t>(part)]; }
+  void split(const TriangleMesh& mesh, std::span<std::uint32_t> triangles, int parts);
 
-  const TriangleMesh& mesh_;
   const AreaLight& light_;
-  std::vector<std::uint32_t> order_;  // triangles, part by part
-  std::vector<double> sum_;           // [m^2] area of all before this place of `order_`
-  std::vector<std::size_t> begin_;    // of each part in `order_`, and the end
-  std::vector<int> part_of_;          // per triangle
+  std::vector<MeshPatch> parts_;
+  std::vector<int> part_of_;  // per triangle
+  double area_ = 0;           // [m^2] of all parts
 };
 
 }  // namespace octolux

@@ -1,5 +1,5 @@
 // A point that sends the same intensity everywhere.
-#include "core/light.h"
+#include "core/light_at_point.h"
 #include "core/sampling.h"
 
 namespace octolux {
@@ -10,18 +10,7 @@ class PointLight final : public Light {
   PointLight(Vec3 position, Rgb intensity) : position_(position), intensity_(intensity) {}
 
   std::optional<LightSample> sample(Vec3 x, Vec2 /*u*/) const override {
-    const Vec3 d = position_ - x;
-    const float distance2 = length2(d);
-    LightSample s;
-    s.radiance = intensity_ / distance2;
-    // Also catches distances whose square under- or overflows: then nothing sensible arrives.
-    if (!(distance2 > 0) || !is_finite(s.radiance) || is_black(s.radiance)) return std::nullopt;
-    s.wi = normalize(d);
-    s.pdf_w = 1;
-    s.delta = true;
-    s.at.position = position_;
-    s.at.ng = s.at.ns = -s.wi;
-    return s;
+    return sample_point(position_, x, [&](Vec3) { return intensity_; });
   }
 
   EmittedPhoton emit(Vec2 /*u_position*/, Vec2 u_direction) const override {

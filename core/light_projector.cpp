@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/light.h"
-#include "core/light_frame.h"
+#include "core/light_at_point.h"
 #include "core/sampling.h"
 
 namespace octolux {
@@ -18,30 +18,12 @@ class Projector final : public Light {
         position_(config.to_world.point({0, 0, 0})),
         frame_(frame_of(config.to_world)),
         half_{config.width / 2, config.width / 2 / config.aspect} {
-    constexpr std::uint32_t n = 256 * 256;
-    double sum[3] = {};
-    for (std::uint32_t i = 0; i < n; ++i) {
-      const Rgb c = config_.picture(shifted_hammersley(i, n, {0.5f / n, 0.5f / n}));
-      for (int k = 0; k < 3; ++k) sum[k] += static_cast<double>(c[k]);
-    }
-    const double scale = static_cast<double>(kPi * area()) / n;
-    power_ = {static_cast<float>(sum[0] * scale), static_cast<float>(sum[1] * scale),
-              static_cast<float>(sum[2] * scale)};
+    power_ = integral(static_cast<double>(kPi * area()), 256,
+                      [this](Vec2 u) { return config_.picture(u); });
   }
 
   std::optional<LightSample> sample(Vec3 x, Vec2 /*u*/) const override {
-    const Vec3 d = position_ - x;
-    const float distance2 = length2(d);
-    if (!(distance2 > 0)) return std::nullopt;
-    LightSample s;
-    s.wi = normalize(d);
-    s.radiance = intensity(frame_.to_local(-s.wi)) / distance2;
-    if (!is_finite(s.radiance) || is_black(s.radiance)) return std::nullopt;
-    s.pdf_w = 1;
-    s.delta = true;
-    s.at.position = position_;
-    s.at.ng = s.at.ns = -s.wi;
-    return s;
+    return sample_point(position_, x, [&](Vec3 w) { return intensity(frame_.to_local(w)); });
   }
 
   /// Uniform over the screen.

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/light.h"
-#include "core/light_frame.h"
+#include "core/light_at_point.h"
 #include "core/sampling.h"
 
 namespace octolux {
@@ -17,30 +17,12 @@ class SpotLight final : public Light {
         frame_(frame_of(config.to_world)),
         cos_cutoff_(std::cos(config.cutoff)),
         solid_angle_(2 * kPi * 2 * std::sin(config.cutoff / 2) * std::sin(config.cutoff / 2)) {
-    constexpr std::uint32_t n = 128 * 128;
-    double sum[3] = {};
-    for (std::uint32_t i = 0; i < n; ++i) {
-      const Rgb c = intensity(sample_cone(shifted_hammersley(i, n, {0.5f / n, 0.5f / n})));
-      for (int k = 0; k < 3; ++k) sum[k] += static_cast<double>(c[k]);
-    }
-    const double scale = static_cast<double>(solid_angle_) / n;
-    power_ = {static_cast<float>(sum[0] * scale), static_cast<float>(sum[1] * scale),
-              static_cast<float>(sum[2] * scale)};
+    power_ = integral(static_cast<double>(solid_angle_), 128,
+                      [this](Vec2 u) { return intensity(sample_cone(u)); });
   }
 
   std::optional<LightSample> sample(Vec3 x, Vec2 /*u*/) const override {
-    const Vec3 d = position_ - x;
-    const float distance2 = length2(d);
-    if (!(distance2 > 0)) return std::nullopt;
-    LightSample s;
-    s.wi = normalize(d);
-    s.radiance = intensity(frame_.to_local(-s.wi)) / distance2;
-    if (!is_finite(s.radiance) || is_black(s.radiance)) return std::nullopt;
-    s.pdf_w = 1;
-    s.delta = true;
-    s.at.position = position_;
-    s.at.ng = s.at.ns = -s.wi;
-    return s;
+    return sample_point(position_, x, [&](Vec3 w) { return intensity(frame_.to_local(w)); });
   }
 
   EmittedPhoton emit(Vec2 /*u_position*/, Vec2 u_direction) const override {

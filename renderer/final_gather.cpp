@@ -67,8 +67,8 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
     next.read_distance = static_cast<float>(config_.eye.retrace) * around->bandwidth;
   }
   const Receiver from = receiver(at);
-  const PointSet directions_at = points(tracer, level, Use::gather, level.rays);
-  const GatherDirections directions(at, around->guide, level.rays, directions_at);
+  const PointSet u = points(tracer, level, Use::gather, level.rays);
+  const GatherDirections directions(at, around->guide, level.rays, u);
   for (int i = 0; i < level.rays; ++i) {
     const std::optional<GatherDirection> chosen = directions.draw(i, tracer.rng);
     if (!chosen) continue;

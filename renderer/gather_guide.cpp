@@ -17,9 +17,8 @@ namespace {
 constexpr float kMinSharpness = 10;
 constexpr float kMaxSharpness = 1000;
 
-/// The unevenness from which on half the rays follow a guide. Between the best for light through
-/// few openings, where errors grow by a tenth from 2 to 4, and for open rooms, where they fall by a
-/// sixth.
+/// The unevenness from which on half the rays follow a guide. From 2 to 4 the error's variance grew
+/// by a tenth where light comes through few openings, and fell by a sixth in Cornell.
 constexpr float kWorthFollowing = 2.5f;
 constexpr float kMinCosine = 0.01f, kMinShare = 1e-6f;  // divisors
 

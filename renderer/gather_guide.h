@@ -28,11 +28,10 @@ class GatherGuide {
   /// surface, on the side the photons came from.
   GatherGuide(const PhotonMap& map, std::span<const Neighbour> photons, Vec3 normal);
 
-  /// No photon speaks for any direction: do not sample.
-  bool empty() const { return count_ == 0; }
   /// The second moment of radiance times cosine, were directions chosen by the cosine, over that of
   /// the best choice: 1 where light comes evenly from everywhere. What each photon says is held
-  /// against the lobes of the others; infinite where there are no others.
+  /// against the lobes of the others: infinite if there is but one, 1 if there is none, and then
+  /// there is nothing to sample.
   float unevenness() const { return unevenness_; }
   /// Density [sr^-1] of `sample`.
   float pdf_w(Vec3 wi) const;

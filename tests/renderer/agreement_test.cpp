@@ -50,12 +50,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"cornell/cornell.xml", {}, 32, 32, 4096, 64, 200'000},
         Case{"glass-sphere/glass-sphere.xml", {{"lamp", "1.2"}}, 32, 24, 8192, 64, 400'000},
         Case{"two-rooms/two-rooms.xml", {}, 48, 32, 16384, 256, 200'000}),
-    [](const testing::TestParamInfo<Case>& param) {
-      std::string name = param.param.scene;
-      name = name.substr(0, name.find('/'));
-      name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
-      return name;
-    });
+    [](const testing::TestParamInfo<Case>& param) { return scene_name(param.param.scene); });
 
 }  // namespace
 }  // namespace octolux::test

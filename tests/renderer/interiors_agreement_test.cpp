@@ -16,22 +16,6 @@ struct Case {
   std::int64_t photons;  // per pass and map
 };
 
-/// A render, and the mean radiance of each of its passes.
-struct Rendered {
-  Film film;
-  Running passes;
-};
-Rendered rendered(const Scene& scene, const RenderConfig& config) {
-  Running passes;
-  double before = 0;
-  Watch watch([&](const Progress& progress, const Film& film) {
-    const double sum = mean_radiance(film).mean * progress.passes;
-    passes.add(sum - before);
-    before = sum;
-  });
-  return {std::move(render(scene, config, watch).film), passes};
-}
-
 Rgb larger(Rgb a, Rgb b) { return {std::max(a.r, b.r), std::max(a.g, b.g), std::max(a.b, b.b)}; }
 
 /// Every pixel's variance, or the mean of its neighbourhood's where that is larger. Light that a
@@ -84,13 +68,13 @@ TEST_P(InteriorsAgreementSlow, PerPixelAndInTheMean) {
   resize_film(*scene, 24, 16);
   const Rendered a = rendered(*scene, path_config(c.path_passes));
   const Rendered b = rendered(*scene, photon_config(c.photon_passes, c.photons));
-  const double mean = a.passes.mean();
-  const double sigma = std::sqrt(a.passes.variance_of_mean() + b.passes.variance_of_mean());
+  const double mean = a.pass_means.mean();
+  const double sigma = std::sqrt(a.pass_means.variance_of_mean() + b.pass_means.variance_of_mean());
   const int apart = values_apart(a.film, b.film), values = 3 * 24 * 16;
   std::printf("  %s: mean ratio %.4f +- %.4f, %d of %d values apart\n", c.scene,
-              b.passes.mean() / mean, sigma / mean, apart, values);
+              b.pass_means.mean() / mean, sigma / mean, apart, values);
   EXPECT_GT(mean, 0);
-  EXPECT_NEAR(b.passes.mean(), mean, 0.005 * mean + 3 * sigma);
+  EXPECT_NEAR(b.pass_means.mean(), mean, 0.005 * mean + 3 * sigma);
   EXPECT_LE(apart, static_cast<int>(0.0025 * values));
 }
 
@@ -99,10 +83,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, InteriorsAgreementSlow,
                                          Case{"living-room/scene.xml", 6144, 64, 100'000},
                                          Case{"aalto-door/scene.xml", 16384, 128, 100'000}),
                          [](const testing::TestParamInfo<Case>& param) {
-                           std::string name = param.param.scene;
-                           name = name.substr(0, name.find('/'));
-                           name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
-                           return name;
+                           return scene_name(param.param.scene);
                          });
 
 }  // namespace

@@ -107,8 +107,13 @@ inline MeanRadiance mean_radiance(const Film& film) {
   return out;
 }
 
-/// The mean radiance of each pass by itself: its spread knows what pixels of a pass have in common.
-inline Running pass_means(const Scene& scene, const RenderConfig& config) {
+/// A picture, and the mean radiance of each pass by itself: its spread knows what pixels of a pass
+/// have in common.
+struct Rendered {
+  Film film;
+  Running pass_means;
+};
+inline Rendered rendered(const Scene& scene, const RenderConfig& config) {
   Running passes;
   double before = 0;
   Watch watch([&](const Progress& progress, const Film& film) {
@@ -116,8 +121,18 @@ inline Running pass_means(const Scene& scene, const RenderConfig& config) {
     passes.add(sum - before);
     before = sum;
   });
-  render(scene, config, watch);
-  return passes;
+  Film film = render(scene, config, watch).film;
+  return {std::move(film), passes};
+}
+inline Running pass_means(const Scene& scene, const RenderConfig& config) {
+  return rendered(scene, config).pass_means;
+}
+
+/// "two-rooms/two-rooms.xml" as a test's name: tworooms.
+inline std::string scene_name(std::string path) {
+  path = path.substr(0, path.find('/'));
+  path.erase(std::remove(path.begin(), path.end(), '-'), path.end());
+  return path;
 }
 
 /// mean (x - y)^2 / (y^2 + 0.01) over pixels and channels (DESIGN section 6).
