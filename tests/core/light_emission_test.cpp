@@ -63,6 +63,24 @@ TEST(Emission, ProjectorLightsAScreenEvenly) {
   EXPECT_FALSE(light->sample({0, 0, -4}, {}));
 }
 
+TEST(Emission, ProjectorPhotonsCarryWhatIsSeenOfTheScreen) {
+  const std::unique_ptr<Texture> slide =
+      make_checkerboard_texture({1, 2, 3}, {3, 5, 1}, scaling(3, 2, 1));
+  const Affine aim = *look_at({0, 0, 0}, {0, 0, 4}, {0, 1, 0});
+  const auto light = make_projector_light({.to_world = aim, .picture = Color(*slide), .aspect = 2});
+  constexpr float kArea = 1.0f / 2;  // of the screen, at distance 1
+  for (int i = 0; i < 49; ++i) {
+    const Vec2 u{(static_cast<float>(i % 7) + 0.5f) / 7, (static_cast<float>(i / 7) + 0.5f) / 7};
+    const EmittedPhoton photon = light->emit({}, u);
+    const auto seen = light->sample(photon.ray.origin + photon.ray.direction * 2, {});
+    ASSERT_TRUE(seen);
+    const float cosine = photon.ray.direction.z;
+    const Rgb flux = seen->radiance * (4 * cosine * cosine * cosine * kArea);
+    EXPECT_NEAR(flux.r, photon.flux.r, 16 * 0x1p-24f * flux.r) << u.x << " " << u.y;
+    EXPECT_NEAR(flux.b, photon.flux.b, 16 * 0x1p-24f * flux.b) << u.x << " " << u.y;
+  }
+}
+
 TEST(Emission, RectanglePhotonsAreUniformAndCosineDistributed) {
   constexpr int kPhotons = 200000, kGrid = 12;
   const LitShape lit("", rectangle(1, 0.5f), {});

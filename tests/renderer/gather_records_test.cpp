@@ -138,6 +138,20 @@ TEST_F(Records, WithoutSitesNobodyIsServed) {
   EXPECT_FALSE(GatherRecords().white_radiance({place.at}));
 }
 
+TEST_F(Records, SitesThatAreNotFiniteAreLeftOut) {
+  std::vector<Photon> sites = on_square(100, rng_of(8, 0));
+  const RecordSites all(sites, {1, 1}, kNeighbours, kReuse);
+  for (std::size_t i = 0; i < sites.size(); i += 3) {
+    sites.insert(sites.begin() + static_cast<std::ptrdiff_t>(i), sites[i]);
+    sites[i].position.x = i % 2 == 0 ? NAN : kInfinity;
+  }
+  const RecordSites finite(sites, {1, 1}, kNeighbours, kReuse);
+  ASSERT_EQ(finite.size(), all.size());
+  for (std::uint32_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(finite.point(i).position, all.point(i).position);
+  }
+}
+
 class RecordsBehindAScreen : public Records {
  protected:
   RecordsBehindAScreen() : Records(true) {}
