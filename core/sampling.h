@@ -21,6 +21,17 @@ inline Vec2 sample_disk(Vec2 u) {
   return {r * std::cos(phi), r * std::sin(phi)};
 }
 
+/// The point that sample_disk() takes there, or nearly.
+inline Vec2 square_of_disk(Vec2 d) {
+  const float r = std::sqrt(d.x * d.x + d.y * d.y);
+  const bool wide = std::abs(d.x) > std::abs(d.y);
+  const float a = std::copysign(r, wide ? d.x : d.y);
+  const float slope = r > 0 ? (wide ? d.y / d.x : d.x / d.y) : 0;
+  const float b = a * (4 * kInvPi) * std::atan(slope);
+  const auto unit = [](float v) { return std::clamp((v + 1) / 2, 0.0f, kOneMinusEpsilon); };
+  return wide ? Vec2{unit(a), unit(b)} : Vec2{unit(b), unit(a)};
+}
+
 /// Cosine-distributed on the hemisphere z > 0 (Malley).
 inline Vec3 sample_cosine_hemisphere(Vec2 u) {
   const Vec2 d = sample_disk(u);
@@ -58,12 +69,12 @@ inline Vec2 sample_triangle(Vec2 u) {
   return {1 - root, u.y * root};
 }
 
-/// x in [0, 1] with density proportional to a (1 - x) + b x. Not both may be zero, nor negative.
+/// x in [0, 1] with density proportional to a (1 - x) + b x, neither negative; if both are 0, even.
 /// The root of the quadratic that does not cancel; also right for u = 1.
 inline float sample_linear(float u, float a, float b) {
   if (u == 0) return 0;
   const float root = std::sqrt(a * a * (1 - u) + b * b * u);
-  return std::min(u * (a + b) / (a + root), 1.0f);
+  return root > 0 ? std::min(u * (a + b) / (a + root), 1.0f) : u;
 }
 
 /// Power heuristic (Veach 1997, 9.2.4) of `n_a` samples of density `pdf_a` against `n_b` of

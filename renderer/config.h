@@ -26,6 +26,7 @@ struct EyeConfig {
   int light_samples = 4;     // per eye sample; each chooses one light
   int samples_per_pass = 1;  // eye samples per pixel and pass
   double retrace = 2;        // gather rays shorter than this many bandwidths go on
+  bool learn = true;         // gather rays learn before the first pass where light comes from
   double reuse = 0.5;  // gather rays share irradiance within this part of a bandwidth; 0: never
 };
 
@@ -68,6 +69,7 @@ void visit(Config& config, Field&& field) {
   field("eye.light_samples", config.eye.light_samples);
   field("eye.samples_per_pass", config.eye.samples_per_pass);
   field("eye.retrace", config.eye.retrace);
+  field("eye.learn", config.eye.learn);
   field("eye.reuse", config.eye.reuse);
   field("stop.passes", config.stop.passes);
   field("stop.samples", config.stop.samples);

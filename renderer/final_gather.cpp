@@ -68,7 +68,9 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
   }
   const Receiver from = receiver(at);
   const PointSet u = points(tracer, level, Use::gather, level.rays);
-  const GatherDirections directions(at, around->guide, level.rays, u);
+  const LearnedGuide* learned =
+      maps_.guides ? maps_.guides->find(at.point().position, at.facing_normal()) : nullptr;
+  const GatherDirections directions(at, {around->guide, learned}, level.rays, u);
   for (int i = 0; i < level.rays; ++i) {
     const std::optional<GatherDirection> chosen = directions.draw(i, tracer.rng);
     if (!chosen) continue;

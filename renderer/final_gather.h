@@ -15,7 +15,8 @@ namespace octolux {
 struct PhotonMaps {
   RadianceMap global;
   RadianceMap caustic;
-  GatherRecords records;         // of the global map; may be none
+  GatherRecords records;                  // of the global map; may be none
+  const LearnedGuides* guides = nullptr;  // the same in all passes; null: none
   bool caustics_mapped = false;  // is L S+ D read from the caustic map (or traced by gather rays)?
 };
 

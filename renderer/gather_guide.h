@@ -16,6 +16,7 @@
 #include "core/point_set.h"
 #include "core/rng.h"
 #include "core/scattering.h"
+#include "renderer/learned_guides.h"
 
 namespace octolux {
 
@@ -57,14 +58,32 @@ struct GatherDirection {
   float bsdf_pdf_w = 0;  // [sr^-1] as if the BSDF had chosen it
 };
 
-/// The rays of one point. Where light comes from few directions, half follow the guide, combined
-/// with the BSDF by the balance heuristic (Veach 1997, 9.2.2). Elsewhere a guide made from a few
-/// photons would bring noise of its own, other in every pass, and all follow the BSDF.
+/// What is known of the light around a point: by the photons of this pass, and by what was learned
+/// before (may be null). One that says that light comes evenly is not followed; of two, the one
+/// more often that says what photons it does not know will do: both have measured that as their
+/// unevenness.
+class GuidePair {
+ public:
+  GuidePair(const GatherGuide& nearby, const LearnedGuide* learned);
+
+  bool empty() const { return share_ == 0 && !learned_; }
+  /// Density [sr^-1] of `sample`. Neither if empty.
+  float pdf_w(Vec3 wi) const;
+  Vec3 sample(Vec2 u) const;
+
+ private:
+  const GatherGuide& nearby_;
+  const LearnedGuide* learned_ = nullptr;
+  float share_ = 0;  // of samples that follow `nearby_`
+};
+
+/// The rays of one point. Where light comes from few directions, half follow the guides, combined
+/// with the BSDF by the balance heuristic (Veach 1997, 9.2.2). Elsewhere guides would only bring
+/// noise of their own, and all follow the BSDF.
 class GatherDirections {
  public:
-  /// Refers to `at`, `guide` and `points`, one for each ray.
-  GatherDirections(const Scattering& at, const GatherGuide& guide, int rays,
-                   const PointSet& points);
+  /// Refers to `at` and `points`, one for each ray, and to what `guides` refers to.
+  GatherDirections(const Scattering& at, const GuidePair& guides, int rays, const PointSet& points);
   /// Direction `i` of `rays`; empty if it brings nothing. The sum of weight times radiance over
   /// all `i` is the reflected radiance in the mean.
   std::optional<GatherDirection> draw(int i, Rng& rng) const;
@@ -74,7 +93,7 @@ class GatherDirections {
   std::optional<GatherDirection> by_guide(Vec2 u) const;
 
   const Scattering& at_;
-  const GatherGuide& guide_;
+  const GuidePair guides_;
   int guided_, unguided_;  // how many rays follow which
   const PointSet& points_;
 };

@@ -85,6 +85,18 @@ TEST(Envmap, TexelsLieWhereMitsubaPutsThem) {
   EXPECT_NEAR(seam.r, image.at(0, 1).r + image.at(8, 1).r, 0.01f);
 }
 
+TEST(Envmap, SamplesAtTheEdgeOfDarkRowsAreFinite) {
+  Image image(4, 5);
+  for (int x = 0; x < 4; ++x) image.at(x, 3) = Rgb(1);  // the cell above fades to black
+  const std::unique_ptr<EnvironmentLight> light = make_envmap_light(image, Affine{}, 1);
+  for (const float v : {0.0f, 0x1p-24f, 0.5f, kOneMinusEpsilon}) {
+    const auto s = light->sample({}, {0.3f, v});
+    if (s) {
+      EXPECT_TRUE(is_finite(s->wi) && s->pdf_w > 0 && is_finite(s->radiance)) << v;
+    }
+  }
+}
+
 TEST(Envmap, MainDirections) {
   Image image(4, 5);  // columns centred on u = 1/8, 3/8, 5/8, 7/8
   for (int x = 0; x < 4; ++x) image.at(x, 2) = Rgb(static_cast<float>(x + 1));

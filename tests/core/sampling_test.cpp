@@ -39,6 +39,20 @@ TEST(Sampling, DiskIsUniform) {
             kAlpha);
 }
 
+TEST(Sampling, SquareOfADiskIsWhereItCameFrom) {
+  const float steps[] = {0, 0x1p-24f, 0.1f, 0.25f, 0.5f, 0.6f, 0.99f, kOneMinusEpsilon};
+  for (const float x : steps) {
+    for (const float y : steps) {
+      const Vec2 u = square_of_disk(sample_disk({x, y}));
+      EXPECT_NEAR(u.x, x, 4 * 0x1p-23f) << x << " " << y;
+      EXPECT_NEAR(u.y, y, 4 * 0x1p-23f) << x << " " << y;
+      EXPECT_TRUE(u.x >= 0 && u.x < 1 && u.y >= 0 && u.y < 1) << x << " " << y;
+    }
+  }
+  const Vec2 beyond = square_of_disk({1.01f, -0.3f});  // directions are unit but for rounding
+  EXPECT_TRUE(beyond.x < 1 && beyond.y >= 0);
+}
+
 TEST(Sampling, CosineHemisphereFollowsItsPdf) {
   // pdf_w = cos / pi makes cos^2 uniform: P(cos < c) = integral of 2 c dc.
   EXPECT_GT(uniform_p(1,
@@ -85,6 +99,7 @@ TEST(Sampling, LinearFollowsItsDensity) {
     EXPECT_EQ(sample_linear(0, ends.x, ends.y), 0);
     EXPECT_NEAR(sample_linear(1, ends.x, ends.y), 1, 4 * 0x1p-24f);
   }
+  EXPECT_EQ(sample_linear(0.25f, 0, 0), 0.25f);
 }
 
 TEST(Sampling, AWrongWarpFails) {

@@ -53,6 +53,18 @@ GatherGuide guide(const std::vector<Photon>& photons) {
   return {map, map.nearest(query, photons.size(), buffer), kNormal};
 }
 
+/// Of a cell where photons arrive as in the case, as often as it has room for them.
+LearnedGuide learned(const std::vector<Photon>& photons) {
+  std::vector<Photon> many;
+  while (many.size() + photons.size() <= 512) {
+    many.insert(many.end(), photons.begin(), photons.end());
+  }
+  LearnedGuides guides;
+  guides.add(many);
+  guides.build();
+  return *guides.find({0, 0, 0}, kNormal);
+}
+
 /// The cell of a grid equal in area to which `w` belongs.
 std::size_t cell(Vec3 w) {
   const auto row = static_cast<std::size_t>(std::clamp((1 - w.z) * 16, 0.0f, 31.0f));
@@ -107,10 +119,21 @@ TEST(GatherGuide, KnowsUnevenLight) {
 }
 
 double half_bright(Vec3 wi) { return wi.x > 0.5f ? 5 : 0.2; }
-double small_lamp(Vec3 wi) { return dot(wi, {0.8f, 0, 0.6f}) > 0.99f ? 100 : 0.2; }
+constexpr Vec3 kLamp{0.8f, 0, 0.6f};
+double small_lamp(Vec3 wi) { return dot(wi, kLamp) > 0.99f ? 100 : 0.2; }
+
+std::vector<Photon> from_lamp(int count) {
+  std::vector<Photon> photons;
+  for (int i = 0; i < count; ++i) {
+    Rng rng(10, Stream::test, 0, static_cast<std::uint64_t>(i));
+    const Vec2 d = sample_disk(rng.uniform2()) * 0.14f;
+    photons.push_back(photon(kLamp + Frame::from_normal(kLamp).to_world({d.x, d.y, 0}), 1, 2));
+  }
+  return photons;
+}
 
 /// Sums of weights times radiance, one for each of many sets of rays.
-Running reflected(const Bsdf& bsdf, const GatherGuide& g, int rays, double (*radiance)(Vec3)) {
+Running reflected(const Bsdf& bsdf, const GuidePair& guides, int rays, double (*radiance)(Vec3)) {
   SurfacePoint point;
   point.ng = point.ns = kNormal;
   const Scattering at(point, bsdf, normalize({0.5f, 0.2f, 0.6f}), Carried::radiance);
@@ -118,7 +141,7 @@ Running reflected(const Bsdf& bsdf, const GatherGuide& g, int rays, double (*rad
   for (int i = 0; i < 20000; ++i) {
     Rng rng(9, Stream::test, 0, static_cast<std::uint64_t>(i));
     const PointSet points(rays, rng);
-    const GatherDirections directions(at, g, rays, points);
+    const GatherDirections directions(at, guides, rays, points);
     double total = 0;
     for (int r = 0; r < rays; ++r) {
       const std::optional<GatherDirection> d = directions.draw(r, rng);
@@ -129,29 +152,52 @@ Running reflected(const Bsdf& bsdf, const GatherGuide& g, int rays, double (*rad
   return sum;
 }
 
-TEST(GatherDirections, GuideChangesNoMean) {
+TEST(GatherDirections, GuidesChangeNoMean) {
   const auto diffuse = make_diffuse(Rgb(0.7f));
   const auto rough = make_rough_conductor({{}, MicrofacetKind::ggx, 0.4f, 0.4f});
   const std::vector<Case> all = cases();
+  const GatherGuide nothing{};
   for (const Bsdf* bsdf : {diffuse.get(), rough.get()}) {
     for (const int rays : {1, 2, 5, 8}) {
-      const Running truth = reflected(*bsdf, GatherGuide(), rays, half_bright);
+      const Running truth = reflected(*bsdf, {nothing, nullptr}, rays, half_bright);
       for (const Case& c : all) {
-        const Running guided = reflected(*bsdf, guide(c.photons), rays, half_bright);
-        const double error = std::hypot(guided.standard_error(), truth.standard_error());
-        EXPECT_GT(z_test_p((guided.mean() - truth.mean()) / error), sidak(kAlpha, 40))
-            << c.name << ", " << rays << " rays";
+        const GatherGuide nearby = guide(c.photons);
+        const LearnedGuide before = learned(c.photons);
+        for (const GuidePair& pair : {GuidePair(nearby, nullptr), GuidePair(nothing, &before),
+                                      GuidePair(nearby, &before)}) {
+          const Running guided = reflected(*bsdf, pair, rays, half_bright);
+          const double error = std::hypot(guided.standard_error(), truth.standard_error());
+          EXPECT_GT(z_test_p((guided.mean() - truth.mean()) / error), sidak(kAlpha, 120))
+              << c.name << ", " << rays << " rays";
+        }
       }
     }
   }
 }
 
-TEST(GatherDirections, GuideToASmallLampLowersVariance) {
+TEST(GatherDirections, GuidesToASmallLampLowerVariance) {
   const auto diffuse = make_diffuse(Rgb(0.7f));
-  const GatherGuide g = guide({photon({0.8f, 0.1f, 0.6f}, 1, 2), photon({0.8f, -0.2f, 0.6f}, 1, 2),
-                               photon({0.7f, 0.3f, 0.6f}, 1, 2), photon({0.9f, 0, 0.3f}, 1, 2)});
-  const double plain = reflected(*diffuse, GatherGuide(), 8, small_lamp).variance();
-  EXPECT_LT(reflected(*diffuse, g, 8, small_lamp).variance(), plain / 2);
+  const GatherGuide nothing{}, nearby = guide(from_lamp(40));
+  const LearnedGuide before = learned(from_lamp(500));
+  const double plain = reflected(*diffuse, {nothing, nullptr}, 8, small_lamp).variance();
+  EXPECT_LT(reflected(*diffuse, {nearby, nullptr}, 8, small_lamp).variance(), plain / 2);
+  EXPECT_LT(reflected(*diffuse, {nothing, &before}, 8, small_lamp).variance(), plain / 2);
+  EXPECT_LT(reflected(*diffuse, {nearby, &before}, 8, small_lamp).variance(), plain / 2);
+}
+
+TEST(GuidePair, FollowsWhoKnows) {
+  const GatherGuide none{}, lamp = guide(from_lamp(40));
+  const LearnedGuide even = learned(spread(500)), learned_lamp = learned(from_lamp(500));
+  EXPECT_TRUE(GuidePair(none, nullptr).empty());
+  EXPECT_TRUE(GuidePair(none, &even).empty());
+  EXPECT_EQ(GuidePair(lamp, &even).pdf_w(kLamp), lamp.pdf_w(kLamp));
+  EXPECT_EQ(GuidePair(none, &learned_lamp).pdf_w(kLamp), learned_lamp.pdf_w(kLamp));
+  // Both know: each by how well.
+  const GuidePair both(lamp, &learned_lamp);
+  const float to_lamp = lamp.unevenness(), to_learned = learned_lamp.unevenness();
+  EXPECT_NEAR(both.pdf_w(kLamp) * (to_lamp + to_learned),
+              lamp.pdf_w(kLamp) * to_lamp + learned_lamp.pdf_w(kLamp) * to_learned,
+              1e-4 * both.pdf_w(kLamp) * (to_lamp + to_learned));
 }
 
 }  // namespace

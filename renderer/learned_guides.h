@@ -1,0 +1,84 @@
+// What gather rays learn before the first pass of where light comes from, from the photons of many
+// passes (Jensen, "Importance driven path tracing using the photon map", 1995; kept in a spatial
+// tree as by Vorba et al., "On-line Learning of Parametric Mixture Models for Light Transport
+// Simulation", 2014). The photons of one pass around a point are few, and do not know the small
+// bright things that a gather ray meets now and then; those of many passes do. All passes share
+// what is learned, so that each pixel's samples still complement each other.
+//
+// The surfaces that light reaches are cut into cells of about equal numbers of photons. A cell
+// keeps the density of the directions they came from, relative to the cosine's: flat where light
+// comes evenly.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/frame.h"
+#include "core/photon.h"
+#include "core/quad_density.h"
+
+namespace octolux {
+
+/// A density over the hemisphere around a cell's mean normal, fixed once made.
+class LearnedGuide {
+ public:
+  LearnedGuide() = default;
+  LearnedGuide(Vec3 normal, QuadDensity density, float unevenness);
+
+  /// As in gather_guide.h: what the photons of each half of the cell say is held against those of
+  /// the other half, so a cell too large for what is near it is not believed.
+  float unevenness() const { return unevenness_; }
+  /// Density [sr^-1] of `sample`.
+  float pdf_w(Vec3 wi) const;
+  /// A direction, not always above the surface at hand. `u` uniform in [0, 1)^2.
+  Vec3 sample(Vec2 u) const;
+
+ private:
+  Frame frame_;
+  QuadDensity density_;  // of the point whose cosine-distributed direction it is
+  float unevenness_ = 1;
+};
+
+class LearnedGuides {
+ public:
+  /// Takes note of the photons of a pass. False if there are enough.
+  bool add(const std::vector<Photon>& photons);
+  /// Learns from all of them, and forgets them. The same on any number of threads.
+  void build();
+
+  /// The guide at a point of a surface, `normal` its geometric normal on the side of the light;
+  /// nullptr if light has never reached one that faces this way.
+  const LearnedGuide* find(Vec3 position, Vec3 normal) const;
+
+ private:
+  /// What is kept of a photon.
+  struct Arrival {
+    Vec3 position;
+    Vec3 wi;
+    Vec3 normal;
+    float flux;
+  };
+  /// Surfaces that face one way: a complete binary tree in the order of a heap, its leaves cells.
+  struct Split {
+    int axis = 0;
+    float at = 0;  // below it lies the first child
+  };
+  /// Halves them, sorted into those below and above.
+  static Split split(std::span<Arrival> arrivals);
+  struct Tree {
+    std::vector<Split> splits;
+    std::vector<LearnedGuide> cells;
+
+    void build(std::span<Arrival> arrivals, std::size_t node);
+    static LearnedGuide guide(std::span<Arrival> arrivals);
+  };
+  static constexpr std::size_t kFacings = 32;  // accel/facing.h
+
+  std::array<std::vector<Arrival>, kFacings> arrivals_;
+  std::array<Tree, kFacings> trees_;
+  std::size_t kept_ = 0;
+};
+
+}  // namespace octolux
