@@ -54,7 +54,9 @@ Vec3 LearnedGuide::sample(Vec2 u) const {
 }
 
 bool LearnedGuides::add(const std::vector<Photon>& photons) {
-  for (const Photon& p : photons) {
+  const std::size_t stride = 1 + photons.size() / kPhotons;  // of a very large pass, some
+  for (std::size_t i = 0; i < photons.size(); i += stride) {
+    const Photon& p = photons[i];
     const float flux = luminance(p.flux);
     // What came straight from a light is brought by next-event estimation.
     if (p.segments < 2 || !is_usable(p) || !(flux > 0)) continue;

@@ -43,7 +43,7 @@ class LearnedGuide {
 
 class LearnedGuides {
  public:
-  /// Takes note of the photons of a pass. False if there are enough.
+  /// Takes note of the photons of a pass; of very many, of an even share. False if that is enough.
   bool add(const std::vector<Photon>& photons);
   /// Learns from all of them, and forgets them. The same on any number of threads.
   void build();
