@@ -16,13 +16,12 @@ float center_along(const TriangleMesh& mesh, std::uint32_t t, int axis) {
   return sum;  // thrice the centre's coordinate
 }
 
-int longest_side(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles) {
-  Bounds box;
+Bounds bounds_of(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles) {
+  Bounds bounds;
   for (const std::uint32_t t : triangles) {
-    for (const std::uint32_t vertex : mesh.triangles[t]) box.add(mesh.positions[vertex]);
+    for (const std::uint32_t vertex : mesh.triangles[t]) bounds.add(mesh.positions[vertex]);
   }
-  const Vec3 side = box.upper - box.lower;
-  return side.x >= side.y && side.x >= side.z ? 0 : side.y >= side.z ? 1 : 2;
+  return bounds;
 }
 
 }  // namespace
@@ -43,7 +42,7 @@ void MeshParts::split(const TriangleMesh& mesh, std::span<std::uint32_t> triangl
     parts_.emplace_back(mesh, std::vector<std::uint32_t>(triangles.begin(), triangles.end()));
     return;
   }
-  const int axis = longest_side(mesh, triangles);
+  const int axis = bounds_of(mesh, triangles).longest_axis();
   const int first = parts / 2;
   const std::size_t middle =
       triangles.size() * static_cast<std::size_t>(first) / static_cast<std::size_t>(parts);

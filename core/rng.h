@@ -17,7 +17,8 @@ enum class Stream : std::uint64_t {
   test = 4,
   record = 5,
   learning = 6,
-  sequence = 7
+  sequence = 7,
+  guide = 8
 };
 
 /// splitmix64 finaliser (Steele, Lea & Flood 2014): a bijection of 64 bits with full avalanche.

@@ -64,6 +64,11 @@ struct Bounds {
   void add(const Bounds& b) { lower = min(lower, b.lower), upper = max(upper, b.upper); }
   bool empty() const { return !(lower.x <= upper.x); }
   Vec3 center() const { return (lower + upper) * 0.5f; }
+  /// Of the longest side.
+  int longest_axis() const {
+    const Vec3 side = upper - lower;
+    return side.x >= side.y && side.x >= side.z ? 0 : side.y >= side.z ? 1 : 2;
+  }
   float radius() const { return empty() ? 0 : length(upper - lower) * 0.5f; }
 };
 

@@ -23,8 +23,6 @@ constexpr int kGatherRays = 2;
 constexpr std::int64_t kChunk = 256;  // eye paths
 constexpr int kMaxBounces = 32;       // specular ones, without roulette
 
-float component(Vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
 /// Places found, and the eye that looks.
 struct Glances {
   Vec3 eye;
@@ -64,7 +62,7 @@ void look(Tracer& tracer, Ray ray, int gather_rays, Glances& glances) {
 int EyeCells::facing(Vec3 normal) {
   const Vec3 a = abs(normal);
   const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
-  return 2 * axis + (component(normal, axis) < 0 ? 1 : 0);
+  return 2 * axis + (normal[axis] < 0 ? 1 : 0);
 }
 
 EyeCells::EyeCells(std::vector<LookUp> look_ups, Vec3 eye) {
@@ -85,9 +83,9 @@ void EyeCells::build(std::span<LookUp> look_ups, Vec3 eye) {
   Bounds bounds;
   for (const LookUp& l : look_ups) bounds.add(l.position);
   const Vec3 size = bounds.upper - bounds.lower;
-  const int axis = facing(size) / 2;
+  const int axis = bounds.longest_axis();
   const float small = kNear * length(bounds.center() - eye);
-  if (look_ups.size() <= kCellLookUps || !(component(size, axis) > small)) {
+  if (look_ups.size() <= kCellLookUps || !(size[axis] > small)) {
     const float margin = kMargin * length(size);
     const Vec3 wide{margin, margin, margin};
     nodes_[here].other = static_cast<int>(cells_.size());
@@ -96,11 +94,10 @@ void EyeCells::build(std::span<LookUp> look_ups, Vec3 eye) {
     return;
   }
   const std::size_t half = look_ups.size() / 2;
-  std::nth_element(look_ups.begin(), look_ups.begin() + static_cast<std::ptrdiff_t>(half),
-                   look_ups.end(), [axis](const LookUp& a, const LookUp& b) {
-                     return component(a.position, axis) < component(b.position, axis);
-                   });
-  const float split = component(look_ups[half].position, axis);
+  std::nth_element(
+      look_ups.begin(), look_ups.begin() + static_cast<std::ptrdiff_t>(half), look_ups.end(),
+      [axis](const LookUp& a, const LookUp& b) { return a.position[axis] < b.position[axis]; });
+  const float split = look_ups[half].position[axis];
   build(look_ups.first(half), eye);
   nodes_[here] = {axis, split, static_cast<int>(nodes_.size())};
   build(look_ups.subspan(half), eye);
@@ -111,7 +108,7 @@ int EyeCells::find(Vec3 position, Vec3 normal) const {
   if (n < 0) return -1;
   while (nodes_[static_cast<std::size_t>(n)].axis >= 0) {
     const Node& node = nodes_[static_cast<std::size_t>(n)];
-    n = component(position, node.axis) < node.split ? n + 1 : node.other;
+    n = position[node.axis] < node.split ? n + 1 : node.other;
   }
   const int cell = nodes_[static_cast<std::size_t>(n)].other;
   const Bounds& b = cells_[static_cast<std::size_t>(cell)].bounds;

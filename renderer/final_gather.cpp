@@ -16,10 +16,11 @@ constexpr int kMaxRetraces = 16;
 }  // namespace
 
 FinalGather::FinalGather(const Scene& scene, const LightSampler& lights, const PhotonMaps& maps,
-                         const RenderConfig& config)
+                         const LearnedGuides& guides, const RenderConfig& config)
     : scene_(scene),
       lights_(lights),
       maps_(maps),
+      guides_(guides),
       config_(config),
       light_samples_(lights.empty() ? 0 : config.eye.light_samples) {}
 
@@ -61,15 +62,15 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
   Level next = level;
   Surroundings own;
   const Surroundings* around = &own;
+  const LearnedGuide* learned = nullptr;
   if (next.read_distance < 0) {
     around = maps_.records.surroundings(point);
     if (!around) around = &(own = survey(maps_.global, point, config_.estimator.neighbours));
+    learned = guides_.find(at.point().position, at.facing_normal());
     next.read_distance = static_cast<float>(config_.eye.retrace) * around->bandwidth;
   }
   const Receiver from = receiver(at);
   const PointSet u = points(tracer, level, Use::gather, level.rays);
-  const LearnedGuide* learned =
-      maps_.guides ? maps_.guides->find(at.point().position, at.facing_normal()) : nullptr;
   const GatherDirections directions(at, {around->guide, learned}, level.rays, u);
   for (int i = 0; i < level.rays; ++i) {
     const std::optional<GatherDirection> chosen = directions.draw(i, tracer.rng);

@@ -8,6 +8,7 @@
 #include "renderer/config.h"
 #include "renderer/direct_light.h"
 #include "renderer/gather_records.h"
+#include "renderer/learned_guides.h"
 
 namespace octolux {
 
@@ -15,8 +16,7 @@ namespace octolux {
 struct PhotonMaps {
   RadianceMap global;
   RadianceMap caustic;
-  GatherRecords records;                  // of the global map; may be none
-  const LearnedGuides* guides = nullptr;  // the same in all passes; null: none
+  GatherRecords records;         // of the global map; may be none
   bool caustics_mapped = false;  // is L S+ D read from the caustic map (or traced by gather rays)?
 };
 
@@ -30,7 +30,7 @@ struct SplitRadiance {
 class FinalGather {
  public:
   FinalGather(const Scene& scene, const LightSampler& lights, const PhotonMaps& maps,
-              const RenderConfig& config);
+              const LearnedGuides& guides, const RenderConfig& config);
 
   /// Smooth-lobe radiance leaving `at`, which the eye path reached over `segments` segments.
   SplitRadiance radiance(Tracer& tracer, const Scattering& at, int segments) const;
@@ -53,6 +53,7 @@ class FinalGather {
   const Scene& scene_;
   const LightSampler& lights_;
   const PhotonMaps& maps_;
+  const LearnedGuides& guides_;
   const RenderConfig& config_;
   int light_samples_;
 };

@@ -20,10 +20,9 @@ constexpr float kMaxSharpness = 1000;
 /// The unevenness from which on rays follow a guide. Nearby: from 2 to 4 the error's variance grew
 /// by a tenth where light comes through few openings, and fell by a sixth in Cornell. Learned: a
 /// guide that is the same in all passes pays earlier; from 1.2 to 2.5 the variance changed by a
-/// tenth at most, and was least here.
+/// tenth at most, and was about least here.
 constexpr float kNearbyWorthFollowing = 2.5f;
 constexpr float kLearnedWorthFollowing = 1.5f;
-constexpr float kMostTrust = 1000;  // in an unevenness, which a single photon makes infinite
 constexpr float kMinCosine = 0.01f, kMinShare = 1e-6f;  // divisors
 
 /// t of a lobe of sharpness k; the inverse of u = t (1 + 2k) / (2 (1 + k t)).
@@ -101,12 +100,12 @@ Vec3 GatherGuide::sample(Vec2 u) const {
 }
 
 GuidePair::GuidePair(const GatherGuide& nearby, const LearnedGuide* learned) : nearby_(nearby) {
-  const float near = nearby.unevenness();
-  const float far = learned ? learned->unevenness() : 1;
-  if (near > kNearbyWorthFollowing) share_ = 1;
+  const float near = nearby.unevenness(), far = learned ? learned->unevenness() : 1;
+  share_ = near > kNearbyWorthFollowing ? 1 : 0;
   if (!(far > kLearnedWorthFollowing)) return;
   learned_ = learned;
-  share_ = share_ > 0 ? 1 - far / (std::min(near, kMostTrust) + far) : 0;
+  // A single photon, infinite, has nobody to confirm it.
+  if (share_ > 0) share_ = std::isinf(near) ? 0 : near / (near + far);
 }
 
 float GuidePair::pdf_w(Vec3 wi) const {

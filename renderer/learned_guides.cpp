@@ -17,12 +17,14 @@ namespace {
 
 constexpr std::size_t kCellPhotons = 512;  // at most
 constexpr std::size_t kLeafPhotons = 8;    // of a cell's density, fewer
-constexpr std::size_t kPhotons = 1 << 21;  // of 40 bytes; more teach little
+/// How much is learned from: so many paths a pixel, traced in rounds, until there are so many
+/// photons (of 40 bytes); more teach little.
+constexpr std::int64_t kPathsPerPixel = 4;
+constexpr std::int64_t kRoundPaths = 1 << 17;
+constexpr std::size_t kPhotons = 1 << 21;
 /// A photon that counts more than so many of the cell's mean would hide what all others tell.
 constexpr float kMostMeans = 3;
 constexpr std::size_t kParallel = 4 * kCellPhotons;  // photons worth a thread
-
-float component(Vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
 std::size_t facing_index(Vec3 normal) {
   return static_cast<std::size_t>(std::countr_zero(facing(normal)));
@@ -53,53 +55,48 @@ Vec3 LearnedGuide::sample(Vec2 u) const {
   return frame_.to_world(sample_cosine_hemisphere(density_.sample(u)));
 }
 
-bool LearnedGuides::add(const std::vector<Photon>& photons) {
-  const std::size_t stride = 1 + photons.size() / kPhotons;  // of a very large pass, some
-  for (std::size_t i = 0; i < photons.size(); i += stride) {
-    const Photon& p = photons[i];
+void LearnedGuides::add(const std::vector<Photon>& photons) {
+  for (const Photon& p : photons) {
     const float flux = luminance(p.flux);
     // What came straight from a light is brought by next-event estimation.
     if (p.segments < 2 || !is_usable(p) || !(flux > 0)) continue;
-    arrivals_[facing_index(p.normal)].push_back({p.position, p.wi, p.normal, flux});
-    ++kept_;
+    deposits_[facing_index(p.normal)].push_back({p.position, p.wi, p.normal, flux});
+    ++photons_;
   }
-  return kept_ < kPhotons;
 }
 
 void LearnedGuides::build() {
   for (std::size_t f = 0; f < kFacings; ++f) {
-    if (arrivals_[f].empty()) continue;
+    if (deposits_[f].empty()) continue;
     const std::size_t cells =
-        std::bit_ceil((arrivals_[f].size() + kCellPhotons - 1) / kCellPhotons);
+        std::bit_ceil((deposits_[f].size() + kCellPhotons - 1) / kCellPhotons);
     trees_[f] = {std::vector<Split>(cells - 1), std::vector<LearnedGuide>(cells)};
-    trees_[f].build(arrivals_[f], 0);
+    trees_[f].build(deposits_[f], 0);
   }
-  arrivals_ = {};
+  deposits_ = {};
 }
 
-LearnedGuides::Split LearnedGuides::split(std::span<Arrival> arrivals) {
+LearnedGuides::Split LearnedGuides::split(std::span<Deposit> deposits) {
   Bounds bounds;
-  for (const Arrival& a : arrivals) bounds.add(a.position);
-  const Vec3 side = bounds.upper - bounds.lower;
-  const int axis = side.x >= side.y && side.x >= side.z ? 0 : side.y >= side.z ? 1 : 2;
-  const auto middle = arrivals.begin() + static_cast<std::ptrdiff_t>(arrivals.size() / 2);
-  std::nth_element(arrivals.begin(), middle, arrivals.end(),
-                   [axis](const Arrival& a, const Arrival& b) {
-                     return component(a.position, axis) < component(b.position, axis);
-                   });
-  return {axis, component(middle->position, axis)};
+  for (const Deposit& a : deposits) bounds.add(a.position);
+  const int axis = bounds.longest_axis();
+  const auto middle = deposits.begin() + static_cast<std::ptrdiff_t>(deposits.size() / 2);
+  std::nth_element(
+      deposits.begin(), middle, deposits.end(),
+      [axis](const Deposit& a, const Deposit& b) { return a.position[axis] < b.position[axis]; });
+  return {axis, middle->position[axis]};
 }
 
-void LearnedGuides::Tree::build(std::span<Arrival> arrivals, std::size_t node) {
+void LearnedGuides::Tree::build(std::span<Deposit> deposits, std::size_t node) {
   if (node >= splits.size()) {
-    cells[node - splits.size()] = guide(arrivals);
+    cells[node - splits.size()] = guide(deposits);
     return;
   }
-  splits[node] = split(arrivals);
-  const std::size_t half = arrivals.size() / 2;
-  const auto lower = [&] { build(arrivals.first(half), 2 * node + 1); };
-  const auto upper = [&] { build(arrivals.subspan(half), 2 * node + 2); };
-  if (arrivals.size() < kParallel) {
+  splits[node] = split(deposits);
+  const std::size_t half = deposits.size() / 2;
+  const auto lower = [&] { build(deposits.first(half), 2 * node + 1); };
+  const auto upper = [&] { build(deposits.subspan(half), 2 * node + 2); };
+  if (deposits.size() < kParallel) {
     lower();
     upper();
   } else {
@@ -107,20 +104,20 @@ void LearnedGuides::Tree::build(std::span<Arrival> arrivals, std::size_t node) {
   }
 }
 
-LearnedGuide LearnedGuides::Tree::guide(std::span<Arrival> arrivals) {
-  split(arrivals);
+LearnedGuide LearnedGuides::Tree::guide(std::span<Deposit> deposits) {
+  split(deposits);
   Vec3 normal{};
   double flux = 0;
-  for (const Arrival& a : arrivals) {
+  for (const Deposit& a : deposits) {
     normal += a.normal;
     flux += a.flux;
   }
   normal = normalize(normal);
   const Frame frame = Frame::from_normal(normal);
-  const auto most = static_cast<float>(kMostMeans * flux / static_cast<double>(arrivals.size()));
+  const auto most = static_cast<float>(kMostMeans * flux / static_cast<double>(deposits.size()));
   std::vector<QuadDensity::Point> points;
-  points.reserve(arrivals.size());
-  for (const Arrival& a : arrivals) {
+  points.reserve(deposits.size());
+  for (const Deposit& a : deposits) {
     const Vec3 w = frame.to_local(a.wi);  // below the horizon only where the cell is curved
     points.push_back({square_of_disk({w.x, w.y}), w.z > 0 ? std::min(a.flux, most) : 0});
   }
@@ -139,9 +136,24 @@ const LearnedGuide* LearnedGuides::find(Vec3 position, Vec3 normal) const {
   std::size_t node = 0;
   while (node < tree.splits.size()) {
     const Split& split = tree.splits[node];
-    node = 2 * node + (component(position, split.axis) < split.at ? 1 : 2);
+    node = 2 * node + (position[split.axis] < split.at ? 1 : 2);
   }
   return &tree.cells[node - tree.splits.size()];
+}
+
+LearnedGuides learn_guides(const Scene& scene, const PhotonSource& source,
+                           const RenderConfig& config) {
+  LearnedGuides guides;
+  if (!config.eye.gather || !config.eye.learn) return guides;
+  const FilmSize& film = scene.film;
+  const std::int64_t paths = kPathsPerPixel * film.crop_width * film.crop_height;
+  const std::int64_t rounds = (paths + kRoundPaths - 1) / kRoundPaths;
+  for (std::int64_t i = 0; i < rounds && guides.photons() < kPhotons; ++i) {
+    const PassKey key{config.seed, static_cast<std::uint64_t>(i)};
+    guides.add(trace_photons(scene, source, PhotonKind::guide, paths / rounds, key).photons);
+  }
+  guides.build();
+  return guides;
 }
 
 }  // namespace octolux

@@ -1,9 +1,10 @@
-// What gather rays learn before the first pass of where light comes from, from the photons of many
-// passes (Jensen, "Importance driven path tracing using the photon map", 1995; kept in a spatial
+// What gather rays learn before the first pass of where light comes from, from photons of their own
+// (Jensen, "Importance driven path tracing using the photon map", 1995; kept in a spatial
 // tree as by Vorba et al., "On-line Learning of Parametric Mixture Models for Light Transport
 // Simulation", 2014). The photons of one pass around a point are few, and do not know the small
-// bright things that a gather ray meets now and then; those of many passes do. All passes share
-// what is learned, so that each pixel's samples still complement each other.
+// bright things that a gather ray meets now and then; many more do. All passes share what is
+// learned, so that each pixel's samples still complement each other, and a render that goes on from
+// a checkpoint learns the same again.
 //
 // The surfaces that light reaches are cut into cells of about equal numbers of photons. A cell
 // keeps the density of the directions they came from, relative to the cosine's: flat where light
@@ -18,6 +19,8 @@
 #include "core/frame.h"
 #include "core/photon.h"
 #include "core/quad_density.h"
+#include "renderer/config.h"
+#include "renderer/photon_pass.h"
 
 namespace octolux {
 
@@ -43,8 +46,10 @@ class LearnedGuide {
 
 class LearnedGuides {
  public:
-  /// Takes note of the photons of a pass; of very many, of an even share. False if that is enough.
-  bool add(const std::vector<Photon>& photons);
+  /// Takes note of photons.
+  void add(const std::vector<Photon>& photons);
+  /// How many were of use.
+  std::size_t photons() const { return photons_; }
   /// Learns from all of them, and forgets them. The same on any number of threads.
   void build();
 
@@ -54,7 +59,7 @@ class LearnedGuides {
 
  private:
   /// What is kept of a photon.
-  struct Arrival {
+  struct Deposit {
     Vec3 position;
     Vec3 wi;
     Vec3 normal;
@@ -66,19 +71,24 @@ class LearnedGuides {
     float at = 0;  // below it lies the first child
   };
   /// Halves them, sorted into those below and above.
-  static Split split(std::span<Arrival> arrivals);
+  static Split split(std::span<Deposit> deposits);
   struct Tree {
     std::vector<Split> splits;
     std::vector<LearnedGuide> cells;
 
-    void build(std::span<Arrival> arrivals, std::size_t node);
-    static LearnedGuide guide(std::span<Arrival> arrivals);
+    void build(std::span<Deposit> deposits, std::size_t node);
+    static LearnedGuide guide(std::span<Deposit> deposits);
   };
   static constexpr std::size_t kFacings = 32;  // accel/facing.h
 
-  std::array<std::vector<Arrival>, kFacings> arrivals_;
+  std::array<std::vector<Deposit>, kFacings> deposits_;
   std::array<Tree, kFacings> trees_;
-  std::size_t kept_ = 0;
+  std::size_t photons_ = 0;
 };
+
+/// From a few photon paths a pixel; nothing where learning is off or there is no final gathering.
+/// `config` resolved.
+LearnedGuides learn_guides(const Scene& scene, const PhotonSource& source,
+                           const RenderConfig& config);
 
 }  // namespace octolux

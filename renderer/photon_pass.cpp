@@ -20,8 +20,17 @@ struct Flight {
 };
 
 Stream stream_of(PhotonKind kind) {
-  if (kind == PhotonKind::global) return Stream::global_photon;
-  return kind == PhotonKind::caustic ? Stream::caustic_photon : Stream::record;
+  switch (kind) {
+    case PhotonKind::global:
+      return Stream::global_photon;
+    case PhotonKind::caustic:
+      return Stream::caustic_photon;
+    case PhotonKind::record:
+      return Stream::record;
+    case PhotonKind::guide:
+      return Stream::guide;
+  }
+  return Stream::global_photon;
 }
 
 /// Scatters the photon at `at` by one of `lobes`, or ends it: Russian roulette by the ratio of new

@@ -2,7 +2,8 @@
 // One walk serves both maps; they differ in what they follow and keep (Heckbert's notation):
 //   global   L (S|D)* D   follows every lobe, keeps a photon at every D
 //   caustic  L S+ D       follows specular lobes only, keeps a photon where such a chain ends
-// Records of irradiance lie where global photons of other paths land.
+// Records of irradiance lie where global photons of other paths land, and guides are learned from
+// global photons of others still.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@
 
 namespace octolux {
 
-enum class PhotonKind { global, caustic, record };
+enum class PhotonKind { global, caustic, record, guide };
 
 /// What one photon pass did.
 struct PhotonPass {

@@ -2,12 +2,12 @@
 // pass of path tracing is eye paths alone.
 #include "renderer/render.h"
 
-#include <algorithm>
 #include <chrono>
 
 #include "core/check.h"
 #include "renderer/eye_pass.h"
 #include "renderer/learn_emission.h"
+#include "renderer/learned_guides.h"
 #include "renderer/path_pass.h"
 
 namespace octolux {
@@ -50,38 +50,14 @@ struct Job {
   PassKey key(int pass) const { return {config.seed, static_cast<std::uint64_t>(pass)}; }
 };
 
-PhotonPass trace_photons(const Job& job, PhotonKind kind, PassKey key) {
-  const bool global = kind == PhotonKind::global;
-  const PhotonConfig& photons = job.config.photons;
-  return trace_photons(job.scene, {job.lights, global ? job.aim.global : job.aim.caustic}, kind,
-                       global ? photons.global : photons.caustic, key);
-}
-
-/// What gather rays learn from the photons of the first passes. They are traced once more when
-/// their passes come: that costs little beside the eye's rays, and a render that goes on from a
-/// checkpoint knows the same again.
-LearnedGuides learn_guides(const Job& job) {
-  constexpr std::int64_t kPathsPerPixel = 4;
-  LearnedGuides guides;
-  const RenderConfig& config = job.config;
-  if (!config.eye.gather || !config.eye.learn || config.photons.global == 0) return guides;
-  const FilmSize& film = job.scene.film;
-  const std::int64_t paths = kPathsPerPixel * film.crop_width * film.crop_height;
-  const std::int64_t passes = std::max<std::int64_t>(1, paths / config.photons.global);
-  bool more = true;
-  for (int pass = 0; more && pass < passes; ++pass) {
-    more = guides.add(trace_photons(job, PhotonKind::global, job.key(pass)).photons);
-  }
-  guides.build();
-  return guides;
-}
-
 /// Photons of one kind in their map.
 RadianceMap make_map(const Job& job, PhotonKind kind, PassKey key, Progress& progress) {
   const PhotonConfig& photons = job.config.photons;
   const bool global = kind == PhotonKind::global;
   Stopwatch watch;
-  PhotonPass traced = trace_photons(job, kind, key);
+  const PhotonSource source{job.lights, global ? job.aim.global : job.aim.caustic};
+  PhotonPass traced =
+      trace_photons(job.scene, source, kind, global ? photons.global : photons.caustic, key);
   progress.rays += traced.rays;
   progress.timing.photons += watch.lap();
 
@@ -127,11 +103,10 @@ PixelPass photon_mapping_pass(const Job& job, PassKey key, Progress& progress) {
   maps.caustics_mapped = job.config.photons.caustic > 0;
   maps.global = make_map(job, PhotonKind::global, key, progress);
   maps.records = make_records(job, maps.global, key, progress);
-  maps.guides = &job.guides;
   if (job.config.eye.gather) maps.caustic = make_map(job, PhotonKind::caustic, key, progress);
 
   Stopwatch watch;
-  const FinalGather gather(job.scene, job.lights, maps, job.config);
+  const FinalGather gather(job.scene, job.lights, maps, job.guides, job.config);
   PixelPass pixels = trace_pixels(job.scene, job.config.eye.samples_per_pass, key,
                                   [&](Tracer& tracer, const Ray& ray) {
                                     return trace_eye_path(tracer, job.lights, gather, ray);
@@ -164,7 +139,7 @@ RenderResult render(const Scene& scene, const RenderConfig& wanted, RenderObserv
   Stopwatch watch;
   if (config.integrator == Integrator::photon) {
     job.aim = learn_emission(scene, job.lights, config);
-    job.guides = learn_guides(job);
+    job.guides = learn_guides(scene, {job.lights, job.aim.global}, config);
   }
   RenderResult result =
       start ? std::move(*start) : RenderResult{Film(film.crop_width, film.crop_height), {}, false};

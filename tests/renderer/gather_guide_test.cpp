@@ -192,6 +192,10 @@ TEST(GuidePair, FollowsWhoKnows) {
   EXPECT_TRUE(GuidePair(none, &even).empty());
   EXPECT_EQ(GuidePair(lamp, &even).pdf_w(kLamp), lamp.pdf_w(kLamp));
   EXPECT_EQ(GuidePair(none, &learned_lamp).pdf_w(kLamp), learned_lamp.pdf_w(kLamp));
+  // A single photon has nobody to confirm it.
+  const GatherGuide single = guide(from_lamp(1));
+  EXPECT_EQ(GuidePair(single, nullptr).pdf_w(kLamp), single.pdf_w(kLamp));
+  EXPECT_EQ(GuidePair(single, &learned_lamp).pdf_w(kLamp), learned_lamp.pdf_w(kLamp));
   // Both know: each by how well.
   const GuidePair both(lamp, &learned_lamp);
   const float to_lamp = lamp.unevenness(), to_learned = learned_lamp.unevenness();

@@ -52,6 +52,13 @@ inline std::string sensor_xml(const std::string& origin, const std::string& targ
          "'/><rfilter type='box'/></film></sensor>";
 }
 
+/// The walls of a closed room as XML: 4 m wide, its floor at y = 0.
+inline std::string closed_room_xml(double reflectance) {
+  return "<shape type='cube'><transform name='to_world'><scale value='-2'/><translate y='2'/>"
+         "</transform><bsdf type='twosided'><bsdf type='diffuse'><rgb name='reflectance' value='" +
+         std::to_string(reflectance) + "'/></bsdf></bsdf></shape>";
+}
+
 /// Watches passes with a function, or just lets them go by.
 class Watch : public RenderObserver {
  public:
@@ -86,6 +93,27 @@ inline RenderConfig photon_config(int passes, std::int64_t photons, std::uint64_
 inline Film render_film(const Scene& scene, const RenderConfig& config) {
   Watch watch;
   return std::move(render(scene, config, watch).film);
+}
+
+/// Pictures by the seeds 1, 2, ... `count`.
+inline std::vector<Film> render_seeds(const Scene& scene, RenderConfig config, int count) {
+  std::vector<Film> films;
+  for (int i = 1; i <= count; ++i) {
+    config.seed = static_cast<std::uint64_t>(i);
+    films.push_back(render_film(scene, config));
+  }
+  return films;
+}
+
+/// The green of each pixel over several pictures.
+inline std::vector<Running> each_pixel(const std::vector<Film>& films) {
+  std::vector<Running> pixels;
+  for (const Film& film : films) {
+    const Image radiance = film.radiance();
+    pixels.resize(radiance.pixels.size());
+    for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i].add(radiance.pixels[i].g);
+  }
+  return pixels;
 }
 
 /// Mean over all pixels and channels, with its standard error from the passes' variance (pixels are

@@ -46,6 +46,17 @@ TEST(Lab, LowDiscrepancyPhotonsAreMoreEven) {
   EXPECT_LT(measure(plane, settings)[0].deviation, poisson / 2);
 }
 
+/// Where the surface ends all round there are photons enough for what is left of the disc, so a
+/// kernel that probes for edges is right on a round rim.
+TEST(Lab, HasPhotonsEnoughOnARim) {
+  LabSettings settings;
+  settings.kernels = {parse_lab_kernel("region")};
+  settings.neighbours = {50};
+  settings.runs = 800;
+  const LabResult rim = measure(find_lab_case("disc-edge").layout(0, 2), settings)[0];
+  EXPECT_GT(test::z_test_p(rim.bias() / rim.standard_error), test::kAlpha);
+}
+
 TEST(Lab, FiguresDoNotDependOnWhenTheyAreTaken) {
   LabSettings settings;
   settings.kernels = {parse_lab_kernel("octobox"), parse_lab_kernel("cone:published")};

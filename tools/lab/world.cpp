@@ -12,7 +12,10 @@ namespace {
 
 constexpr double kPi2 = 2 * std::numbers::pi;
 constexpr double kWallHeight = 4;
-constexpr double kFarthest = 50;  // where the floor is too small for the photons wanted
+/// So many times the photons asked for are drawn, as an estimator may leave out part of the
+/// surface.
+constexpr double kSpare = 2.5;
+constexpr double kFarthest = 50;  // are photons on a floor too small for those wanted
 
 /// A point at arc length x along a circle of the curvature, touching the plane at x = 0.
 struct Bend {
@@ -43,6 +46,7 @@ LabWorld::LabWorld(const LabLayout& layout, double angle)
   TriangleMesh mesh;
   for (const FloorPiece& piece : layout_.pieces) {
     brightest_ = std::max(brightest_, piece.irradiance * (piece.slope != 0 ? 2 : 1));
+    for (const Point2 p : piece.corners) farthest_ = std::max(farthest_, std::hypot(p.x, p.y));
     const int strips = layout_.curvature == 0 ? 1 : 256;
     const double low = piece.corners[0].x, high = piece.corners[1].x;
     for (int i = 0; i < strips && layout_.curvature != 0; ++i) {
@@ -60,6 +64,7 @@ LabWorld::LabWorld(const LabLayout& layout, double angle)
       mesh.triangles.push_back({first, first + 1, first + 2});
     }
   }
+  farthest_ = std::min(farthest_, kFarthest);
   for (const LabWall& w : layout_.walls) {
     add_quad(mesh, {turned(w.from.x, w.from.y, 0), turned(w.to.x, w.to.y, 0),
                     turned(w.to.x, w.to.y, kWallHeight), turned(w.from.x, w.from.y, kWallHeight)});
@@ -138,11 +143,11 @@ void LabWorld::add_floor_photon(Point2 p, double density, Rng& rng,
 }
 
 std::vector<Photon> LabWorld::poisson_floor(int n, double density, Rng& rng) const {
-  const double enough = 1.5 * (n + 1) + 10;
+  const double enough = kSpare * (n + 1) + 10;
   std::vector<Photon> photons;
   int near_count = 0;
   double radius2 = 0, last2 = 0;
-  while ((near_count < enough || radius2 < 1.5 * last2) && radius2 < kFarthest * kFarthest) {
+  while ((near_count < enough || radius2 < kSpare * last2) && radius2 < farthest_ * farthest_) {
     radius2 += exponential(rng) / (std::numbers::pi * density * brightest_);
     const double angle = kPi2 * rng.uniform();
     const Point2 p{std::sqrt(radius2) * std::cos(angle), std::sqrt(radius2) * std::sin(angle)};
@@ -157,7 +162,7 @@ std::vector<Photon> LabWorld::poisson_floor(int n, double density, Rng& rng) con
 
 std::vector<Photon> LabWorld::low_discrepancy_floor(int n, double density, Rng& rng) const {
   constexpr double kStepX = 0.75487766624669276, kStepY = 0.56984029099805327;
-  const double reach = 1.3 + 25.0 / (n + 1);
+  const double reach = std::sqrt(kSpare) + 25.0 / (n + 1);
   const auto count = static_cast<std::int64_t>(4 * reach * reach * density * brightest_);
   const Vec2 shift = rng.uniform2();
   std::vector<Photon> photons;

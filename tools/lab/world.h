@@ -39,6 +39,7 @@ class LabWorld {
   LabLayout layout_;
   double cosine_, sine_;
   double brightest_ = 0;
+  double farthest_ = 0;  // photons
   std::vector<Shape> shapes_;
   std::unique_ptr<RayCaster> caster_;
 };
