@@ -10,8 +10,7 @@
 namespace octolux {
 namespace {
 
-constexpr std::size_t kParallelItems = 8192;    // below, a task costs more than it saves
-constexpr std::uint32_t kMaxLeaves = 1u << 25;  // so that coordinate_offset is below 2^31
+constexpr std::size_t kParallelItems = 8192;  // below, a task costs more than it saves
 
 std::uint32_t widest_axis(std::span<const PhotonTree::Item> items) {
   Vec3 lower = items[0].position;
@@ -45,8 +44,8 @@ std::uint32_t left_leaves(std::uint32_t leaves) {
 }  // namespace
 
 PhotonTree::PhotonTree(std::span<Item> items, std::span<const FacingSet> facing) {
+  OCTOLUX_CHECK(items.size() <= kMaxItems);
   const std::size_t leaves = (items.size() + kBlockSize - 1) / kBlockSize;
-  OCTOLUX_CHECK(leaves < kMaxLeaves);
   if (leaves == 0) return;
   nodes_.resize(leaves);
   blocks_.resize(leaves);

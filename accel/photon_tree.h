@@ -5,7 +5,6 @@
 // to m - 1 are inner and m to 2 m - 1 are leaves. All blocks are full except the last one. 12 bytes
 // a photon and one for the tree. Queries measure cells as in Arya & Mount, "Algorithms for
 // Fast Vector Quantization" (DCC 1993): a cell's distance grows by one offset per split plane.
-//
 // Each node knows which ways the surfaces of its photons face (accel/facing.h).
 //
 // Immutable after construction, so thread-safe; the same for every number of threads, because
@@ -42,6 +41,10 @@ class PhotonTree {
     std::uint32_t index = 0;  // of the caller
   };
 
+  static constexpr std::size_t kMaxItems = (1u << 29) - kBlockSize;  // coordinate_offset < 2^31
+  static constexpr double kBytesPerItem =
+      double{sizeof(Block) + sizeof(Node) + sizeof(FacingSet)} / kBlockSize;
+
   PhotonTree() = default;
   /// Sorts `items` into the tree's order: item i is lane i % kBlockSize of block i / kBlockSize.
   /// Positions must be finite. `facing` is by the caller's index.
@@ -66,7 +69,6 @@ class PhotonTree {
 
  private:
   friend class PhotonTreeWalk;
-
   std::uint32_t leaf_count() const { return static_cast<std::uint32_t>(blocks_.size()); }
   /// Block of leaf `node`: the heap's last level comes first from left to right.
   std::uint32_t block_of(std::uint32_t node) const {
@@ -91,7 +93,6 @@ class PhotonTreeWalk {
  public:
   enum class Order { nearest_first, left_to_right };
   static constexpr std::uint32_t kEnd = ~0u;
-
   /// Passes over branches with no photon on a surface that faces one of these ways.
   PhotonTreeWalk(const PhotonTree& tree, Vec3 position, FacingSet facing)
       : tree_(tree), position_{position.x, position.y, position.z}, facing_(facing) {

@@ -35,7 +35,15 @@ struct RecordConfig {
 
 /// Thread-safe: a record holds the same whoever makes it.
 class GatherRecords {
+  /// Where paths may have few segments, irradiance depends on how many are left to the photons.
+  static constexpr int kDepths = 4;
+
  public:
+  /// Without surroundings, which few records are asked for.
+  static constexpr double kBytesPerRecord = RecordSites::kBytesPerSite +
+                                            kDepths * LazyValues<Rgb>::kBytesPerValue +
+                                            LazyValues<float>::kBytesPerValue + sizeof(void*);
+
   GatherRecords() = default;
   /// The map and the caster must outlive the records and stay where they are.
   GatherRecords(RecordSites sites, const RadianceMap& map, const RayCaster& caster,
@@ -48,9 +56,6 @@ class GatherRecords {
   const Surroundings* surroundings(const GatherPoint& at) const;
 
  private:
-  /// Where paths may have few segments, irradiance depends on how many are left to the photons.
-  static constexpr int kDepths = 4;
-
   int depth_index(int max_segments) const;
   bool sees(std::uint32_t record, const SurfacePoint& point, Vec3 normal) const;
   template <class Use>

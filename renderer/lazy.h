@@ -15,6 +15,8 @@ namespace octolux {
 template <class T>
 class LazyValues {
  public:
+  static constexpr double kBytesPerValue = sizeof(T) + 1;
+
   explicit LazyValues(std::size_t count = 0) : values_(count), states_(count) {}
 
   template <class Compute>

@@ -202,7 +202,8 @@ EmissionDensity learn(const Scene& scene, const LightSampler& lights, PhotonKind
   Learner learner(scene, lights, kind, std::move(cells), config.seed);
   learner.start_from(first);
   std::int64_t count =
-      std::clamp(kTrialsPerPhoton * photons, kFewestTrials, kMostTrials) >> (kRounds - 1);
+      std::clamp(kTrialsPerPhoton * std::min(photons, kMostTrials), kFewestTrials, kMostTrials) >>
+      (kRounds - 1);
   learner.round(count);
   for (int r = 1; r < kRounds; ++r) {
     // With portals, what comes another way is bright and rare, and a first look does not see it.

@@ -26,7 +26,15 @@ std::int64_t record_paths(std::int64_t photons, const Bandwidth& bandwidth);
 
 /// Immutable, thread-safe.
 class RecordSites {
+ private:
+  struct Site {
+    Vec3 ng, ns;      // normals on the side the light came from
+    float error = 0;  // [m] bound on the error of the position
+  };
+
  public:
+  static constexpr double kBytesPerSite = sizeof(Site) + PhotonTree::kBytesPerItem;
+
   RecordSites() = default;
   /// One record for each photon, those that are not finite left out. Each serves points within the
   /// share `reuse` of the bandwidth, as far as the density of the sites tells it, of look-ups for
@@ -44,11 +52,6 @@ class RecordSites {
   SurfacePoint point(std::uint32_t record) const;
 
  private:
-  struct Site {
-    Vec3 ng, ns;      // normals on the side the light came from
-    float error = 0;  // [m] bound on the error of the position
-  };
-
   PhotonTree tree_;
   std::vector<Site> sites_;    // in the tree's order
   std::vector<float> reach2_;  // [m^2] per block of the tree: how far its records serve

@@ -139,6 +139,9 @@ RenderResult render(const Scene& scene, const RenderConfig& wanted, RenderObserv
   Stopwatch watch;
   if (config.integrator == Integrator::photon) {
     job.aim = learn_emission(scene, job.lights, config);
+    const PhotonMemory memory = foresee_photons(scene, job.lights, job.aim, config);
+    check_photons(memory, config, physical_memory());
+    observer.photons_foreseen(memory);
     job.guides = learn_guides(scene, {job.lights, job.aim.global}, config);
   }
   RenderResult result =

@@ -12,6 +12,7 @@ namespace {
 
 /// Time between two savings of an unfinished picture: this, or more if saving is slow.
 constexpr double kSaveSeconds = 5;
+constexpr double kMuchMemory = 1e9;  // bytes
 constexpr double kSaveShare = 0.05;  // of the time, at most, goes into saving
 
 }  // namespace
@@ -21,6 +22,12 @@ Session::Session(ProgressPrinter& printer, Save save)
       interrupt_(!printer.quiet()),
       save_(std::move(save)),
       interval_(kSaveSeconds) {}
+
+void Session::photons_foreseen(const PhotonMemory& memory) {
+  if (memory.bytes < kMuchMemory) return;
+  printer_.say(fmt::format("about {:.2g} photons a pass, in {:.2g} GB of memory", memory.photons,
+                           1e-9 * memory.bytes));
+}
 
 bool Session::pass_done(const Progress& progress, const Film& film) {
   printer_.update(progress);

@@ -18,6 +18,7 @@ class Session final : public RenderObserver {
   /// Ctrl-C is caught while this lives. `printer` must live as long.
   Session(ProgressPrinter& printer, Save save);
 
+  void photons_foreseen(const PhotonMemory& memory) override;
   bool pass_done(const Progress& progress, const Film& film) override;
   /// Saves the finished picture, unless it is on disk already.
   void finish(const RenderResult& result);

@@ -131,6 +131,7 @@ TEST_F(CommandLine, BadArgumentsAreRefused) {
       {{"render", "room.xml", "--spp", "-1"}, "above 0"},
       {{"render", "room.xml", "--time", "nan"}, "a number"},
       {{"render", "room.xml", "--error", "1%"}, "a number"},
+      {{"render", "room.xml", "--quiet", "--photons", "1000000000000"}, "photons; expected at"},
       {{"render", "room.xml", "--photons", "-5"}, "photons.global"},
       {{"render", "room.xml", "--neighbours", "0"}, "neighbours"},
       {{"render", "room.xml", "--seed", "-1"}, "whole number"},
