@@ -12,6 +12,7 @@
 namespace octolux {
 
 using FacingSet = std::uint32_t;
+inline constexpr int kFacings = 32;
 
 /// The one class of a surface with this unit normal.
 FacingSet facing(Vec3 normal);

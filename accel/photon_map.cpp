@@ -15,6 +15,7 @@
 
 #include "accel/block_distances.h"
 #include "accel/photon_filter.h"
+#include "accel/photon_tree_walk.h"
 #include "core/check.h"
 #include "core/parallel.h"
 
@@ -118,6 +119,27 @@ float keep_best(Neighbour* items, std::size_t k, std::size_t count) {
   return high;
 }
 
+/// Around a position, as far as a leaf tells.
+float photons_per_area(const PhotonTree::Block& block, Vec3 position) {
+  constexpr std::uint32_t kLanes = 8;  // sums for SIMD
+  float sums[kLanes] = {}, counts[kLanes] = {};
+  for (std::uint32_t first = 0; first < PhotonTree::kBlockSize; first += kLanes) {
+    for (std::uint32_t i = 0; i < kLanes; ++i) {
+      const float dx = block.x[first + i] - position.x;
+      const float dy = block.y[first + i] - position.y;
+      const float dz = block.z[first + i] - position.z;
+      const float d2 = dx * dx + dy * dy + dz * dz;
+      sums[i] += d2 < kInfinity ? d2 : 0;
+      counts[i] += d2 < kInfinity ? 1.0f : 0.0f;
+    }
+  }
+  const float sum = std::accumulate(sums, sums + kLanes, 0.0f);
+  const float count = std::accumulate(counts, counts + kLanes, 0.0f);
+  // Two random points of a square leaf are at a mean squared distance of a third of its area.
+  const float area = 3 * sum / count;
+  return count / area;
+}
+
 }  // namespace
 
 PhotonMap::PhotonMap(std::vector<Photon> photons) {
@@ -125,12 +147,13 @@ PhotonMap::PhotonMap(std::vector<Photon> photons) {
   Usable usable(photons);
   rejected_ = photons.size() - usable.items.size();
   photons = {};
+  size_ = usable.items.size();
   tree_ = PhotonTree(usable.items, usable.facing);
-  payloads_.resize(usable.items.size());
-  const auto count = static_cast<std::int64_t>(usable.items.size());
-  parallel_for_chunks(count, kChunk, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+  payloads_.resize(tree_.slots());
+  parallel_for_chunks(slots(), kChunk, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) {
-      payloads_[i] = usable.payloads[usable.items[i].index];
+      const std::uint32_t index = usable.items[i].index;
+      if (index != PhotonTree::kNone) payloads_[i] = usable.payloads[index];
     }
   });
 }
@@ -153,26 +176,12 @@ std::span<const Neighbour> PhotonMap::within(const PhotonQuery& query,
   return within_in(Inside{*query.region, query.position}, query, buffer);
 }
 
-float PhotonMap::rough_distance(Vec3 position, std::size_t k) const {
-  if (size() == 0) return kInfinity;
-  const PhotonTree::Block& block = tree_.block(tree_.leaf_at(position));
-  constexpr std::uint32_t kLanes = 8;  // sums for SIMD
-  float sums[kLanes] = {}, counts[kLanes] = {};
-  for (std::uint32_t first = 0; first < PhotonTree::kBlockSize; first += kLanes) {
-    for (std::uint32_t i = 0; i < kLanes; ++i) {
-      const float dx = block.x[first + i] - position.x;
-      const float dy = block.y[first + i] - position.y;
-      const float dz = block.z[first + i] - position.z;
-      const float d2 = dx * dx + dy * dy + dz * dz;
-      sums[i] += d2 < kInfinity ? d2 : 0;
-      counts[i] += d2 < kInfinity ? 1.0f : 0.0f;
-    }
-  }
-  const float sum = std::accumulate(sums, sums + kLanes, 0.0f);
-  const float count = std::accumulate(counts, counts + kLanes, 0.0f);
-  // Two random points of a square leaf are at a mean squared distance of a third of its area.
-  const float area = 3 * sum / count;
-  return std::sqrt(area * (static_cast<float>(k) / count) * kInvPi);
+float PhotonMap::rough_distance(Vec3 position, Vec3 normal, std::size_t k) const {
+  float per_area = 0;
+  tree_.blocks_at(position, facing_near(normal), [&](const PhotonTree::Block& block) {
+    per_area += photons_per_area(block, position);
+  });
+  return std::sqrt(static_cast<float>(k) / per_area * kInvPi);
 }
 
 template <class Region>

@@ -2,7 +2,7 @@
 // over the same photons would answer, ties included. Which photons count is decided inside the
 // query (accel/photon_filter.h), so k of them really are k that count.
 //
-// Layout: accel/photon_tree.h, payloads apart in the same order; 29 bytes a photon. Immutable
+// Layout: accel/photon_tree.h, payloads apart in the same order; 28.5 bytes a photon. Immutable
 // after construction, so thread-safe. The same photons in the same order give the same map whatever
 // the number of threads.
 #pragma once
@@ -57,12 +57,15 @@ class PhotonMap {
   /// All photons that count at a distance below query.max_radius, in the map's order.
   std::span<const Neighbour> within(const PhotonQuery& query, NeighbourBuffer& buffer) const;
 
-  /// A guess at the distance of the k-th photon, from the leaf at `position` alone, whether its
-  /// photons count or not: right within a small factor where the density is even. Not 0 unless
-  /// photons coincide; infinite for an empty map.
-  float rough_distance(Vec3 position, std::size_t k) const;
+  /// A guess at the distance of the k-th photon on surfaces that face about as `normal` does, from
+  /// the leaves at `position` alone: right within a small factor where the density is even. Not 0
+  /// unless photons coincide; infinite where there are none.
+  float rough_distance(Vec3 position, Vec3 normal, std::size_t k) const;
 
-  std::size_t size() const { return payloads_.size(); }
+  std::size_t size() const { return size_; }
+  /// Photons are at indices below this, not all of which hold one.
+  std::uint32_t slots() const { return tree_.slots(); }
+  bool holds(std::uint32_t slot) const { return position(slot).x < kInfinity; }
   std::size_t rejected() const { return rejected_; }
   /// Bytes held, tree included.
   std::size_t memory() const;
@@ -83,7 +86,7 @@ class PhotonMap {
 
   PhotonTree tree_;
   std::vector<PhotonPayload> payloads_;  // in the tree's order
-  std::size_t rejected_ = 0;
+  std::size_t size_ = 0, rejected_ = 0;
 };
 
 }  // namespace octolux

@@ -2,7 +2,9 @@
 #include "accel/photon_tree.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <utility>
 
 #include "core/check.h"
 #include "core/parallel.h"
@@ -43,34 +45,60 @@ std::uint32_t left_leaves(std::uint32_t leaves) {
 
 }  // namespace
 
-PhotonTree::PhotonTree(std::span<Item> items, std::span<const FacingSet> facing) {
+PhotonTree::PhotonTree(std::vector<Item>& items, std::span<const FacingSet> facing) {
   OCTOLUX_CHECK(items.size() <= kMaxItems);
-  const std::size_t leaves = (items.size() + kBlockSize - 1) / kBlockSize;
-  if (leaves == 0) return;
-  nodes_.resize(leaves);
-  blocks_.resize(leaves);
-  block_facing_.resize(leaves);
-  last_level_ = std::bit_floor(static_cast<std::uint32_t>(2 * leaves - 1));
-  split(items, 1, leaf_count());
-  fill_blocks(items, facing);
-  for (std::uint32_t node = leaf_count() - 1; node > 0; --node) {
-    nodes_[node].facing = facing_of(2 * node) | facing_of(2 * node + 1);
-  }
-}
-
-std::uint32_t PhotonTree::leaf_at(Vec3 position) const {
-  const std::array<float, 3> p{position.x, position.y, position.z};
-  std::uint32_t node = 1;
-  while (node < leaf_count()) node = 2 * node + (p[nodes_[node].axis] >= nodes_[node].split);
-  return block_of(node);
+  group(items, facing);
+  if (roots_.empty()) return;
+  build(items, roots_);
+  fill_blocks(items);
 }
 
 std::size_t PhotonTree::memory() const {
-  return blocks_.capacity() * sizeof(Block) + nodes_.capacity() * sizeof(Node) +
-         block_facing_.capacity() * sizeof(FacingSet);
+  return roots_.capacity() * sizeof(Root) + blocks_.capacity() * sizeof(Block) +
+         nodes_.capacity() * sizeof(Node);
 }
 
-void PhotonTree::split(std::span<Item> items, std::uint32_t node, std::uint32_t leaves) {
+/// Makes the roots, and sorts the items by them.
+void PhotonTree::group(std::vector<Item>& items, std::span<const FacingSet> facing) {
+  const auto way = [&](const Item& item) { return std::countr_zero(facing[item.index]); };
+  std::array<std::uint32_t, kFacings> counts{};
+  for (const Item& item : items) ++counts[way(item)];
+  std::array<std::size_t, kFacings> next{};  // slot
+  std::uint32_t blocks = 0;
+  for (std::size_t f = 0; f < kFacings; ++f) {
+    if (counts[f] == 0) continue;
+    next[f] = std::size_t{blocks} * kBlockSize;
+    const std::uint32_t leaves = (counts[f] + kBlockSize - 1) / kBlockSize;
+    roots_.push_back(
+        {FacingSet{1} << f, counts[f], blocks, leaves, std::bit_floor(2 * leaves - 1)});
+    blocks += leaves;
+  }
+  std::vector<Item> grouped(std::size_t{blocks} * kBlockSize);
+  for (const Item& item : items) grouped[next[way(item)]++] = item;
+  items = std::move(grouped);
+  nodes_.resize(blocks);
+  blocks_.resize(blocks);
+}
+
+void PhotonTree::build(std::span<Item> items, std::span<Root> roots) {
+  const std::size_t half = roots.size() / 2;
+  if (half > 0) {
+    parallel_invoke([&] { build(items, roots.first(half)); },
+                    [&] { build(items, roots.subspan(half)); });
+    return;
+  }
+  Root& root = roots[0];
+  const std::span<Item> own = root.of(items);
+  root.lower = root.upper = own[0].position;
+  for (const Item& item : own) {
+    root.lower = min(root.lower, item.position);
+    root.upper = max(root.upper, item.position);
+  }
+  split(own, root, 1, root.leaves);
+}
+
+void PhotonTree::split(std::span<Item> items, const Root& root, std::uint32_t node,
+                       std::uint32_t leaves) {
   if (leaves < 2) return;
   const std::uint32_t left = left_leaves(leaves);
   const std::size_t count = std::size_t{left} * kBlockSize;
@@ -78,10 +106,9 @@ void PhotonTree::split(std::span<Item> items, std::uint32_t node, std::uint32_t 
   const float plane = axis == 0   ? select<&Vec3::x>(items, count)
                       : axis == 1 ? select<&Vec3::y>(items, count)
                                   : select<&Vec3::z>(items, count);
-  nodes_[node].split = plane;
-  nodes_[node].axis = axis;
-  const auto split_left = [&] { split(items.first(count), 2 * node, left); };
-  const auto split_right = [&] { split(items.subspan(count), 2 * node + 1, leaves - left); };
+  nodes_[root.first + node] = {plane, axis};
+  const auto split_left = [&] { split(items.first(count), root, 2 * node, left); };
+  const auto split_right = [&] { split(items.subspan(count), root, 2 * node + 1, leaves - left); };
   if (items.size() > kParallelItems) {
     parallel_invoke(split_left, split_right);
   } else {
@@ -90,19 +117,27 @@ void PhotonTree::split(std::span<Item> items, std::uint32_t node, std::uint32_t 
   }
 }
 
-void PhotonTree::fill_blocks(std::span<const Item> items, std::span<const FacingSet> facing) {
-  parallel_for_chunks(leaf_count(), 1024, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+void PhotonTree::fill_blocks(std::span<const Item> items) {
+  const auto count = static_cast<std::int64_t>(blocks_.size());
+  parallel_for_chunks(count, 1024, [&](std::int64_t, std::int64_t begin, std::int64_t end) {
     for (std::int64_t b = begin; b < end; ++b) {
       for (std::uint32_t lane = 0; lane < kBlockSize; ++lane) {
-        const std::size_t i = static_cast<std::size_t>(b) * kBlockSize + lane;
-        const Vec3 p = i < items.size() ? items[i].position : Vec3{kInfinity, kInfinity, kInfinity};
+        const Vec3 p = items[static_cast<std::size_t>(b) * kBlockSize + lane].position;
         blocks_[b].x[lane] = p.x;
         blocks_[b].y[lane] = p.y;
         blocks_[b].z[lane] = p.z;
-        if (i < items.size()) block_facing_[b] |= facing[items[i].index];
       }
     }
   });
+}
+
+std::uint32_t PhotonTree::block_at(const Root& root, Vec3 position) const {
+  std::uint32_t node = 1;
+  while (node < root.leaves) {
+    const Node& n = nodes_[root.first + node];
+    node = 2 * node + (position[static_cast<int>(n.axis)] >= n.split ? 1 : 0);
+  }
+  return root.block_of(node);
 }
 
 }  // namespace octolux

@@ -1,11 +1,12 @@
-// The kd-tree under a PhotonMap: positions only.
+// The kd-trees under a PhotonMap: positions only, one tree for each way surfaces face
+// (accel/facing.h). Photons on the two sides of a wall, or where walls meet, are as near to each
+// other as those of one side, but a look-up counts one side only; in a common tree most of what it
+// would try could not count.
 //
-// Leaves hold kBlockSize photons as a structure of arrays, for SIMD. The tree over them is complete
+// Leaves hold kBlockSize photons as a structure of arrays, for SIMD. A tree over them is complete
 // and implicit, as a binary heap: node i has the children 2 i and 2 i + 1; with m leaves, nodes 1
-// to m - 1 are inner and m to 2 m - 1 are leaves. All blocks are full except the last one. 12 bytes
-// a photon and one for the tree. Queries measure cells as in Arya & Mount, "Algorithms for
-// Fast Vector Quantization" (DCC 1993): a cell's distance grows by one offset per split plane.
-// Each node knows which ways the surfaces of its photons face (accel/facing.h).
+// to m - 1 are inner and m to 2 m - 1 are leaves. All blocks of a tree are full except the last
+// one. 12 bytes a photon and half a one for the tree.
 //
 // Immutable after construction, so thread-safe; the same for every number of threads, because
 // splits follow a total order (coordinate, then index).
@@ -34,23 +35,25 @@ class PhotonTree {
   struct Node {
     float split = 0;         // left: coordinate <= split, right: coordinate >= split
     std::uint32_t axis = 0;  // 0, 1, 2
-    FacingSet facing = 0;    // of the photons below
   };
   struct Item {
-    Vec3 position;
-    std::uint32_t index = 0;  // of the caller
+    Vec3 position{kInfinity, kInfinity, kInfinity};
+    std::uint32_t index = kNone;  // of the caller
   };
+  static constexpr std::uint32_t kNone = ~0u;
 
-  static constexpr std::size_t kMaxItems = (1u << 29) - kBlockSize;  // coordinate_offset < 2^31
-  static constexpr double kBytesPerItem =
-      double{sizeof(Block) + sizeof(Node) + sizeof(FacingSet)} / kBlockSize;
+  static constexpr std::size_t kMaxItems = (1u << 29) - 1024;  // coordinate_offset below 2^31
+  static constexpr double kBytesPerItem = double{sizeof(Block) + sizeof(Node)} / kBlockSize;
 
   PhotonTree() = default;
-  /// Sorts `items` into the tree's order: item i is lane i % kBlockSize of block i / kBlockSize.
-  /// Positions must be finite. `facing` is by the caller's index.
-  PhotonTree(std::span<Item> items, std::span<const FacingSet> facing);
+  /// Sorts `items` into the tree's order, with items of index kNone after each tree's last: item i
+  /// is slot i, which is lane i % kBlockSize of block i / kBlockSize. Positions must be finite.
+  /// `facing` is by the caller's index.
+  PhotonTree(std::vector<Item>& items, std::span<const FacingSet> facing);
 
+  std::uint32_t slots() const { return static_cast<std::uint32_t>(blocks_.size()) * kBlockSize; }
   const Block& block(std::uint32_t index) const { return blocks_[index]; }
+  /// Of a slot; infinite if it holds nothing.
   Vec3 position(std::uint32_t photon) const {
     const Block& b = blocks_[photon / kBlockSize];
     const std::uint32_t lane = photon % kBlockSize;
@@ -63,88 +66,61 @@ class PhotonTree {
   static Photons coordinate_offset(Photons photons) {
     return photons + 2 * (photons & ~static_cast<int>(kBlockSize - 1));
   }
-  /// The block around a position; there must be one.
-  std::uint32_t leaf_at(Vec3 position) const;
+  /// Calls `use` with the block around a position in each tree whose photons face one of these ways
+  /// and surround it; if there is none, with that in the nearest tree whose photons do.
+  template <class Use>
+  void blocks_at(Vec3 position, FacingSet facing, const Use& use) const {
+    const Root* nearest = nullptr;
+    float nearest2 = kInfinity;
+    for (const Root& root : roots_) {
+      if ((root.facing & facing) == 0) continue;
+      const float distance2 = root.distance2(position);
+      if (distance2 == 0) use(blocks_[block_at(root, position)]);
+      if (distance2 < nearest2) nearest = &root, nearest2 = distance2;
+    }
+    if (nearest2 > 0 && nearest) use(blocks_[block_at(*nearest, position)]);
+  }
   std::size_t memory() const;
 
  private:
   friend class PhotonTreeWalk;
-  std::uint32_t leaf_count() const { return static_cast<std::uint32_t>(blocks_.size()); }
-  /// Block of leaf `node`: the heap's last level comes first from left to right.
-  std::uint32_t block_of(std::uint32_t node) const {
-    return node - last_level_ + (node < last_level_ ? leaf_count() : 0);
-  }
-  void split(std::span<Item> items, std::uint32_t node, std::uint32_t leaves);
-  void fill_blocks(std::span<const Item> items, std::span<const FacingSet> facing);
-  FacingSet facing_of(std::uint32_t node) const {
-    return node < leaf_count() ? nodes_[node].facing : block_facing_[block_of(node)];
-  }
 
-  std::vector<Node> nodes_;  // [0] is unused
-  std::vector<Block> blocks_;
-  std::vector<FacingSet> block_facing_;
-  std::uint32_t last_level_ = 0;  // first node of the heap's deepest level
-};
+  /// The photons that face one way.
+  struct Root {
+    FacingSet facing = 0;
+    std::uint32_t count = 0;       // photons
+    std::uint32_t first = 0;       // of its blocks, and of its nodes (one of which is unused)
+    std::uint32_t leaves = 0;      // at least 1
+    std::uint32_t last_level = 0;  // first node of the heap's deepest level
+    Vec3 lower{}, upper{};         // bounds
 
-/// Visits the blocks that may hold photons closer to `position` than a limit the caller may shrink
-/// on the way. A distance is compared as the caller must compute it: dx dx + dy dy + dz dz in
-/// float, from the left; rounding is monotonic, so no photon below the limit is ever missed.
-class PhotonTreeWalk {
- public:
-  enum class Order { nearest_first, left_to_right };
-  static constexpr std::uint32_t kEnd = ~0u;
-  /// Passes over branches with no photon on a surface that faces one of these ways.
-  PhotonTreeWalk(const PhotonTree& tree, Vec3 position, FacingSet facing)
-      : tree_(tree), position_{position.x, position.y, position.z}, facing_(facing) {
-    if (tree.leaf_count() > 0) stack_[size_++] = {1, 0, {0, 0, 0}};
-  }
-
-  /// The next block with a part at a squared distance below `limit`, or kEnd.
-  template <Order order>
-  std::uint32_t next(float limit) {
-    while (size_ > 0) {
-      Cell cell = stack_[--size_];
-      if (!(cell.distance2 < limit)) continue;
-      while (cell.node < tree_.leaf_count() && (tree_.nodes_[cell.node].facing & facing_) != 0) {
-        descend<order>(cell, limit);
-      }
-      if (cell.node < tree_.leaf_count() || !(cell.distance2 < limit)) continue;
-      const std::uint32_t block = tree_.block_of(cell.node);
-      if ((tree_.block_facing_[block] & facing_) != 0) return block;
+    std::span<Item> of(std::span<Item> items) const {
+      return items.subspan(std::size_t{first} * kBlockSize, count);
     }
-    return kEnd;
-  }
-
- private:
-  struct Cell {
-    std::uint32_t node;
-    float distance2;
-    std::array<float, 3> offset;  // per axis, from the position to the cell
+    /// Block of leaf `node`: the heap's last level comes first from left to right.
+    std::uint32_t block_of(std::uint32_t node) const {
+      return first + node - last_level + (node < last_level ? leaves : 0);
+    }
+    /// Per axis, from the position to the bounds.
+    std::array<float, 3> offset(Vec3 position) const {
+      const Vec3 o = max(max(lower - position, position - upper), Vec3{0, 0, 0});
+      return {o.x, o.y, o.z};
+    }
+    float distance2(Vec3 position) const {
+      const std::array<float, 3> o = offset(position);
+      return o[0] * o[0] + o[1] * o[1] + o[2] * o[2];
+    }
   };
-  /// Fewer than 2^32 photons make fewer than 2^28 leaves, so a path has fewer than 29 inner nodes.
-  static constexpr int kStackSize = 32;
 
-  /// Replaces `cell` by the child to visit first, and pushes the other one.
-  template <Order order>
-  void descend(Cell& cell, float limit) {
-    const PhotonTree::Node node = tree_.nodes_[cell.node];
-    const float difference = position_[node.axis] - node.split;
-    const std::uint32_t near = 2 * cell.node + (difference >= 0 ? 1 : 0);
-    Cell far = cell;
-    far.node = near ^ 1;
-    far.offset[node.axis] = difference;
-    far.distance2 = far.offset[0] * far.offset[0] + far.offset[1] * far.offset[1] +
-                    far.offset[2] * far.offset[2];
-    cell.node = near;
-    if (order == Order::left_to_right && difference >= 0) std::swap(cell, far);
-    if (far.distance2 < limit) stack_[size_++] = far;
-  }
+  void group(std::vector<Item>& items, std::span<const FacingSet> facing);
+  void build(std::span<Item> items, std::span<Root> roots);
+  void split(std::span<Item> items, const Root& root, std::uint32_t node, std::uint32_t leaves);
+  void fill_blocks(std::span<const Item> items);
+  std::uint32_t block_at(const Root& root, Vec3 position) const;
 
-  const PhotonTree& tree_;
-  std::array<float, 3> position_;
-  FacingSet facing_;
-  std::array<Cell, kStackSize> stack_;  // not initialised, except for what was pushed
-  int size_ = 0;
+  std::vector<Root> roots_;
+  std::vector<Node> nodes_;
+  std::vector<Block> blocks_;
 };
 
 }  // namespace octolux

@@ -24,8 +24,8 @@ float search_limit(const GatherPoint& at, const Bandwidth& bandwidth) {
   return std::min(bandwidth.max_radius, 2 * kRounding * at.caster->bounds().radius());
 }
 
-float first_reach(const PhotonMap& map, Vec3 position, std::size_t wanted, float limit) {
-  const float reach = kMargin * map.rough_distance(position, wanted);
+float first_reach(const PhotonMap& map, const PhotonQuery& query, std::size_t wanted, float limit) {
+  const float reach = kMargin * map.rough_distance(query.position, query.normal, wanted);
   return reach > 0 ? std::min(reach, limit) : limit;
 }
 
@@ -58,7 +58,7 @@ RegionDisc find_in_region(const GatherPoint& at, const PhotonMap& map, const Ban
   PhotonQuery query = photon_query(at, bandwidth);
   FeelerQuery feelers = feeler_query(at, config.feelers);
   feelers.edges = config.edges;
-  float reach = first_reach(map, query.position, wanted, limit);
+  float reach = first_reach(map, query, wanted, limit);
   if (!(reach > 0)) return result;
   for (bool obstructed = false;; reach = std::min(2 * reach, limit)) {
     std::span<const Neighbour> found;

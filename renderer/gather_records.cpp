@@ -36,7 +36,7 @@ GatherRecords::GatherRecords(RecordSites sites, const RadianceMap& map, const Ra
       white_radiance_(sites_.size() * kDepths),
       free_(config.must_see ? sites_.size() : 0),
       surroundings_(sites_.size()) {
-  for (std::uint32_t i = 0; i < map.photons().size(); ++i) {
+  for (std::uint32_t i = 0; i < map.photons().slots(); ++i) {
     longest_ = std::max(longest_, segments(map.photons().payload(i)));
   }
 }

@@ -16,6 +16,7 @@
 #include <span>
 #include <vector>
 
+#include "accel/facing.h"
 #include "core/frame.h"
 #include "core/photon.h"
 #include "core/quad_density.h"
@@ -79,8 +80,6 @@ class LearnedGuides {
     void build(std::span<Deposit> deposits, std::size_t node);
     static LearnedGuide guide(std::span<Deposit> deposits);
   };
-  static constexpr std::size_t kFacings = 32;  // accel/facing.h
-
   std::array<std::vector<Deposit>, kFacings> deposits_;
   std::array<Tree, kFacings> trees_;
   std::size_t photons_ = 0;

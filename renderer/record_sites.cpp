@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "accel/block_distances.h"
+#include "accel/photon_tree_walk.h"
 #include "core/constants.h"
 #include "core/vec3d.h"
 
@@ -54,14 +55,15 @@ RecordSites::RecordSites(const std::vector<Photon>& photons, const Bandwidth& ba
     if (is_usable(photon)) items.push_back({photon.position, index});
   }
   tree_ = PhotonTree(items, facing);
-  sites_.reserve(items.size());
-  for (const PhotonTree::Item& item : items) {
-    const Photon& photon = photons[item.index];
-    sites_.push_back({photon.normal, photon.ns, photon.error});
+  sites_.resize(items.size());
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (items[i].index == PhotonTree::kNone) continue;
+    const Photon& photon = photons[items[i].index];
+    sites_[i] = {photon.normal, photon.ns, photon.error};
   }
   const float share = static_cast<float>(reuse) * bandwidth.shrink;
   max_reach2_ = share * share * bandwidth.max_radius * bandwidth.max_radius;
-  const auto blocks = static_cast<std::uint32_t>((sites_.size() + kBlockSize - 1) / kBlockSize);
+  const std::uint32_t blocks = tree_.slots() / kBlockSize;
   for (std::uint32_t b = 0; b < blocks; ++b) {
     const float disc = area_per_site(tree_.block(b)) * static_cast<float>(neighbours);
     reach2_.push_back(std::min(max_reach2_, share * share * disc * kInvPi));

@@ -41,12 +41,13 @@ TEST(PhotonMap, GuessesDistancesOnAPlane) {
   float sum = 0;
   for (int i = 0; i < 200; ++i) {
     const Vec2 u = rng.uniform2();
-    const float guess = map.rough_distance({0.1f + 0.8f * u.x, 0.1f + 0.8f * u.y, 0}, 50);
+    const float guess =
+        map.rough_distance({0.1f + 0.8f * u.x, 0.1f + 0.8f * u.y, 0}, {0, 0, 1}, 50);
     EXPECT_TRUE(guess > expected / 3 && guess < expected * 3) << guess / expected;
     sum += guess / 200;
   }
   EXPECT_NEAR(sum / expected, 1, 0.2);  // it steers work, not results
-  EXPECT_EQ(PhotonMap().rough_distance({0, 0, 0}, 50), kInfinity);
+  EXPECT_EQ(PhotonMap().rough_distance({0, 0, 0}, {0, 0, 1}, 50), kInfinity);
 }
 
 }  // namespace
