@@ -124,7 +124,7 @@ PhotonMap::PhotonMap(std::vector<Photon> photons) {
   OCTOLUX_CHECK(photons.size() < (std::uint64_t{1} << 32));
   Usable usable(photons);
   rejected_ = photons.size() - usable.items.size();
-  photons = {};
+  photons = std::vector<Photon>();  // `= {}` would keep the memory
   tree_ = PhotonTree(usable.items, usable.facing);
   payloads_.resize(usable.items.size());
   const auto count = static_cast<std::int64_t>(usable.items.size());
