@@ -146,7 +146,7 @@ PhotonMap::PhotonMap(std::vector<Photon> photons) {
   OCTOLUX_CHECK(photons.size() < (std::uint64_t{1} << 32));
   Usable usable(photons);
   rejected_ = photons.size() - usable.items.size();
-  photons = {};
+  photons = std::vector<Photon>();  // `= {}` would keep the memory
   size_ = usable.items.size();
   tree_ = PhotonTree(usable.items, usable.facing);
   payloads_.resize(tree_.slots());

@@ -10,7 +10,9 @@ namespace octolux {
 
 namespace {
 
-constexpr std::int64_t kChunk = 4096;  // paths
+constexpr std::int64_t kChunk = 4096;          // paths
+constexpr std::int64_t kBatch = 256 * kChunk;  // paths whose chunks are held at a time
+constexpr double kSpare = 1.02;                // room for photons beyond those expected
 
 /// A photon in flight.
 struct Flight {
@@ -49,6 +51,35 @@ bool scatter(Flight& flight, const Scattering& at, Lobes lobes, Rng& rng) {
   return true;
 }
 
+/// Some of the paths of a pass.
+struct Batch {
+  std::int64_t all = 0;  // paths of the pass
+  std::int64_t first = 0, count = 0;
+};
+
+/// What its chunks found, in their order.
+std::vector<PhotonPass> trace_batch(const Scene& scene, const PhotonSource& source, PhotonKind kind,
+                                    Batch batch, PassKey key) {
+  const Stream stream = stream_of(kind);
+  std::vector<PhotonPass> parts(static_cast<std::size_t>((batch.count + kChunk - 1) / kChunk));
+  const auto trace = [&](std::int64_t chunk, std::int64_t begin, std::int64_t end) {
+    PhotonPass& part = parts[static_cast<std::size_t>(chunk)];
+    for (std::int64_t index = batch.first + begin; index < batch.first + end; ++index) {
+      Tracer tracer(scene, Rng(key.seed, stream, key.pass, static_cast<std::uint64_t>(index)));
+      // Stratified over the pass, so that every lamp gets its share.
+      const double u =
+          (static_cast<double>(index) + tracer.rng.uniform()) / static_cast<double>(batch.all);
+      const EmissionDensity::Sample sample = source.density.sample(u, tracer.rng);
+      const float photons_like_it = static_cast<float>(batch.all) / sample.weight;
+      trace_photon(tracer, emit_photon(source.lights, sample.at, photons_like_it), kind,
+                   part.photons);
+      part.rays += tracer.rays();
+    }
+  };
+  parallel_for_chunks(batch.count, kChunk, trace);
+  return parts;
+}
+
 }  // namespace
 
 /// The light is chosen by power, so that all photons carry about the same flux.
@@ -85,30 +116,24 @@ PhotonPass trace_photons(const Scene& scene, const PhotonSource& source, PhotonK
   if (count == 0 || source.lights.empty()) return result;
   if (kind == PhotonKind::caustic && !scene.any_specular) return result;
 
-  const Stream stream = stream_of(kind);
-  const auto chunks = static_cast<std::size_t>((count + kChunk - 1) / kChunk);
-  std::vector<PhotonPass> parts(chunks);
-  parallel_for_chunks(count, kChunk, [&](std::int64_t chunk, std::int64_t begin, std::int64_t end) {
-    PhotonPass& part = parts[static_cast<std::size_t>(chunk)];
-    for (std::int64_t index = begin; index < end; ++index) {
-      Tracer tracer(scene, Rng(key.seed, stream, key.pass, static_cast<std::uint64_t>(index)));
-      // Stratified over the pass, so that every lamp gets its share.
-      const double u =
-          (static_cast<double>(index) + tracer.rng.uniform()) / static_cast<double>(count);
-      const EmissionDensity::Sample sample = source.density.sample(u, tracer.rng);
-      const float photons_like_it = static_cast<float>(count) / sample.weight;
-      trace_photon(tracer, emit_photon(source.lights, sample.at, photons_like_it), kind,
-                   part.photons);
-      part.rays += tracer.rays();
+  // A batch at a time, so that what chunks found is never held twice.
+  for (std::int64_t done = 0; done < count;) {
+    const std::int64_t batch = std::min(kBatch, count - done);
+    const std::vector<PhotonPass> parts =
+        trace_batch(scene, source, kind, {count, done, batch}, key);
+    done += batch;
+    std::size_t total = result.photons.size();
+    for (const PhotonPass& part : parts) total += part.photons.size();
+    if (total > result.photons.capacity()) {
+      // What the rest will need, if it stores as many; memory not written to costs nothing.
+      const double share = static_cast<double>(done) / static_cast<double>(count);
+      const double all = static_cast<double>(total) / share;
+      result.photons.reserve(done < count ? static_cast<std::size_t>(kSpare * all) : total);
     }
-  });
-
-  std::size_t total = 0;
-  for (const PhotonPass& part : parts) total += part.photons.size();
-  result.photons.reserve(total);
-  for (const PhotonPass& part : parts) {
-    result.photons.insert(result.photons.end(), part.photons.begin(), part.photons.end());
-    result.rays += part.rays;
+    for (const PhotonPass& part : parts) {
+      result.photons.insert(result.photons.end(), part.photons.begin(), part.photons.end());
+      result.rays += part.rays;
+    }
   }
   return result;
 }

@@ -65,9 +65,21 @@ class XmlReader {
   void check_defines(const std::string& path) const;
 
  private:
+  /// A file, and where its lines end, so that a place is found without counting from the top.
   struct Source {
+    Source(std::string path_, std::string text_) : path(std::move(path_)), text(std::move(text_)) {
+      for (auto at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1)) {
+        line_ends.push_back(static_cast<std::ptrdiff_t>(at));
+      }
+    }
+    Location locate(std::ptrdiff_t offset) const {
+      const auto next = std::lower_bound(line_ends.begin(), line_ends.end(), offset);
+      return {path, 1 + static_cast<int>(next - line_ends.begin())};
+    }
+
     std::string path;
     std::string text;
+    std::vector<std::ptrdiff_t> line_ends;
   };
 
   void add_to_hash(std::string_view bytes) { document_.hash_ = hash_bytes(document_.hash_, bytes); }
@@ -85,28 +97,18 @@ class XmlReader {
   std::vector<std::string> open_files_;  // canonical; to notice cycles
 };
 
-namespace {
-
-Location locate(const std::string& path, const std::string& text, std::ptrdiff_t offset) {
-  const auto end = text.begin() + std::clamp<std::ptrdiff_t>(offset, 0, std::ssize(text));
-  return {path, 1 + static_cast<int>(std::count(text.begin(), end, '\n'))};
-}
-
-}  // namespace
-
 XmlNode XmlReader::read_file(const std::string& path, const std::string& shown_at) {
   const std::string canonical = fs::weakly_canonical(path).string();
   if (std::count(open_files_.begin(), open_files_.end(), canonical) > 0) {
     throw Error(shown_at + "the file includes itself: '" + path + "'");
   }
-  const Source source{path, octolux::read_file(path)};
+  const Source source(path, octolux::read_file(path));
   add_to_hash(source.text);
 
   pugi::xml_document xml;
   const pugi::xml_parse_result parsed = xml.load_buffer(source.text.data(), source.text.size());
   if (!parsed) {
-    fail(locate(path, source.text, parsed.offset),
-         std::string("malformed XML: ") + parsed.description());
+    fail(source.locate(parsed.offset), std::string("malformed XML: ") + parsed.description());
   }
   open_files_.push_back(canonical);
   XmlNode root = read_node(xml.document_element(), source);
@@ -125,7 +127,7 @@ void XmlReader::check_defines(const std::string& path) const {
 
 XmlNode XmlReader::read_node(const pugi::xml_node& xml, const Source& source) {
   XmlNode node;
-  node.where = locate(source.path, source.text, xml.offset_debug());
+  node.where = source.locate(xml.offset_debug());
   node.tag = xml.name();
   for (const pugi::xml_attribute& attribute : xml.attributes()) {
     node.attributes.emplace_back(attribute.name(), substitute(attribute.value(), node.where));
@@ -139,7 +141,7 @@ void XmlReader::read_child(const pugi::xml_node& xml, const Source& source, XmlN
   if (xml.type() == pugi::node_pcdata || xml.type() == pugi::node_cdata) {
     const std::size_t begin = static_cast<std::size_t>(xml.offset_debug());
     const std::size_t word = source.text.find_first_not_of(" \t\r\n", begin);
-    fail(locate(source.path, source.text, static_cast<std::ptrdiff_t>(word)),
+    fail(source.locate(static_cast<std::ptrdiff_t>(word)),
          "unexpected text inside <" + parent.tag + ">");
   }
   if (xml.type() != pugi::node_element) return;

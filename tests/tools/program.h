@@ -1,4 +1,4 @@
-// Runs the built program as a user would: arguments in, exit code and output back.
+// Runs a built program as a user would: arguments in, exit code and output back.
 #pragma once
 
 #include <fcntl.h>
@@ -28,10 +28,11 @@ inline std::string read_file(const std::string& path) {
 /// The program running in `folder`, with a pipe-less stdout and stderr (two files there).
 class Program {
  public:
-  Program(const TemporaryFolder& folder, const std::vector<std::string>& arguments)
+  Program(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
+          const std::string& program = OCTOLUX_PROGRAM)
       : out_(folder / ".out"), err_(folder / ".err") {
     std::vector<std::string> words = arguments;
-    words.insert(words.begin(), OCTOLUX_PROGRAM);
+    words.insert(words.begin(), program);
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
@@ -62,9 +63,9 @@ class Program {
   pid_t process_;
 };
 
-inline Outcome run_program(const TemporaryFolder& folder,
-                           const std::vector<std::string>& arguments) {
-  return Program(folder, arguments).wait();
+inline Outcome run_program(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
+                           const std::string& program = OCTOLUX_PROGRAM) {
+  return Program(folder, arguments, program).wait();
 }
 
 }  // namespace octolux::test

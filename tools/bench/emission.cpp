@@ -8,13 +8,11 @@
 // Medians of several passes within this one process; compare ratios, machines are noisy.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <chrono>
-
 #include "core/error.h"
 #include "renderer/eye_cells.h"
 #include "renderer/learn_emission.h"
 #include "renderer/scene_loader.h"
+#include "tools/bench/measuring.h"
 
 namespace octolux {
 namespace {
@@ -23,27 +21,12 @@ constexpr std::int64_t kPhotons = 200'000;  // per pass
 constexpr std::uint64_t kPasses = 7;
 constexpr Bounds kRoom{{-2.51f, -0.01f, -2.01f}, {2.51f, 2.81f, 2.01f}};
 
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 bool in_room(Vec3 p) { return max(kRoom.lower, p) == p && min(kRoom.upper, p) == p; }
 
 /// Medians over passes, per second.
 struct Rates {
   double paths = 0, stored = 0, seen = 0, room = 0;
 };
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 Rates measure(const Scene& scene, const PhotonSource& source, const EyeCells& cells) {
   std::vector<double> paths, stored, seen, room;

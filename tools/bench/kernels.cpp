@@ -27,6 +27,7 @@
 #include "core/rng.h"
 #include "renderer/render.h"
 #include "renderer/scene_loader.h"
+#include "tools/bench/measuring.h"
 
 namespace octolux {
 namespace {
@@ -119,11 +120,6 @@ class PlaneLookUps {
   mutable volatile float sink_ = 0;  // so that nothing is optimised away
 };
 
-class Silent : public RenderObserver {
- public:
-  bool pass_done(const Progress&, const Film&) override { return true; }
-};
-
 /// Two passes at default settings; the second one shrinks the bandwidth.
 class RoomRender {
  public:
@@ -195,11 +191,6 @@ std::optional<double> count_by_valgrind(const Situation& situation, const Estima
     if (found != nullptr) count = std::atof(found + std::strlen("Collected : "));
   }
   return pclose(output) == 0 && count.value_or(0) > 0 ? count : std::nullopt;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
 }
 
 /// Seconds of each kernel in each round; the kernels take turns.

@@ -20,6 +20,7 @@
 #include "renderer/path_pass.h"
 #include "renderer/pixels.h"
 #include "renderer/scene_loader.h"
+#include "tools/bench/measuring.h"
 
 namespace octolux {
 namespace {
@@ -27,16 +28,6 @@ namespace {
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
-class Silent : public RenderObserver {
- public:
-  bool pass_done(const Progress&, const Film&) override { return true; }
-};
 
 RenderResult run(const Scene& scene, const RenderConfig& config) {
   Silent observer;
@@ -49,11 +40,6 @@ RenderConfig path_for(int passes, double seconds = 0, std::uint64_t seed = 1) {
   config.seed = seed;
   config.stop = {passes, 0, seconds, 0};
   return config;
-}
-
-void set_size(Scene& scene, int width, int height) {
-  scene.film = {width, height, 0, 0, width, height};
-  scene.camera = Camera(scene.camera_config, scene.film);
 }
 
 void report_path_rate(const Scene& scene) {

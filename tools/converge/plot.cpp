@@ -50,15 +50,6 @@ std::vector<PlotPoint> points_of(const Series& series, const Place& place) {
   return points;
 }
 
-/// A logarithmic scale around all values, and at least a decade long.
-PlotScale scale_around(const std::vector<double>& values, double from, double to) {
-  double low = 1e300, high = 0;
-  for (const double v : values) low = std::min(low, v), high = std::max(high, v);
-  if (!(high > 0)) low = 0.01, high = 1;
-  const double widen = std::max(1.25, std::sqrt(10 * low / high));
-  return {low / widen, high * widen, from, to, true};
-}
-
 PlotPanel make_panel(const Study& study, const Place& place, const PlotPanel& frame) {
   std::vector<double> times, values;
   for (const Series& series : study.series) {
@@ -66,8 +57,8 @@ PlotPanel make_panel(const Study& study, const Place& place, const PlotPanel& fr
     for (const PlotPoint& p : points_of(series, place)) values.push_back(p.y);
   }
   PlotPanel panel = frame;
-  panel.x = scale_around(times, frame.x.from, frame.x.to);
-  panel.y = scale_around(values, frame.y.from, frame.y.to);
+  panel.x = log_scale_around(times, frame.x.from, frame.x.to);
+  panel.y = log_scale_around(values, frame.y.from, frame.y.to);
   panel.x_title = study.time_unit;
   panel.y_unit = 0.01;
   return panel;
@@ -80,24 +71,15 @@ void draw_series(Drawing& drawing, const Study& study, const PlotPanel& panel, c
   }
 }
 
-/// The part of a straight line through (x, y) in log-log that is inside the panel.
-void draw_guide(Drawing& drawing, const PlotPanel& panel, double slope, double x, double y) {
-  const auto at = [&](double v) { return y * std::pow(v / x, slope); };
-  const double right =
-      std::min(panel.x.high, slope < 0 ? x * std::pow(panel.y.low / y, 1 / slope) : panel.x.high);
-  drawing.items.push_back(Polyline{
-      {{panel.x(x), panel.y(y)}, {panel.x(right), panel.y(at(right))}}, kGuide, 1, {5, 4}});
-}
-
 /// The targets, and how noise alone would fall.
 void draw_guides(Drawing& drawing, const PlotPanel& panel) {
   for (const double target : kTargets) {
     if (target > panel.y.low && target < panel.y.high) {
-      draw_guide(drawing, panel, 0, panel.x.low, target);
+      draw_power_law(drawing, panel, 0, panel.x.low, target);
     }
   }
   const double start = panel.y.high / 1.1;
-  draw_guide(drawing, panel, -0.5, panel.x.low, start);
+  draw_power_law(drawing, panel, -0.5, panel.x.low, start);
   drawing.items.push_back(Words{{panel.x.to - 4, panel.y.to + 14},
                                 "dashed: targets, and slope -1/2 (noise alone)",
                                 Words::Anchor::end,

@@ -52,6 +52,20 @@ std::vector<double> log_ticks(double low, double high) {
   return ticks;
 }
 
+/// Of a logarithmic axis: "0.3", "10^5", "3x10^5".
+std::string log_label(double value) {
+  if (value >= 1e-3 * (1 - kRounding) && value < 1e4 * (1 - kRounding)) {
+    return fmt::format("{:.4g}", value);
+  }
+  const double exponent = std::floor(std::log10(value) + kRounding);
+  const std::string factor = fmt::format("{:.2g}", value / std::pow(10, exponent));
+  return (factor == "1" ? "" : factor + "x") + fmt::format("10^{:.0f}", exponent);
+}
+
+std::string label(const PlotScale& scale, double value) {
+  return scale.logarithmic ? log_label(value) : fmt::format("{:.4g}", value);
+}
+
 Polyline line(Spot a, Spot b, Ink ink, double width) { return {{a, b}, ink, width, {}}; }
 
 std::vector<Spot> circle(Spot at, double radius) {
@@ -74,6 +88,14 @@ double PlotScale::operator()(double value) const {
 
 std::vector<double> PlotScale::ticks() const {
   return logarithmic ? log_ticks(low, high) : even_ticks(low, high);
+}
+
+PlotScale log_scale_around(const std::vector<double>& values, double from, double to) {
+  double low = 1e300, high = 0;
+  for (const double v : values) low = std::min(low, v), high = std::max(high, v);
+  if (!(high > 0)) low = 0.01, high = 1;
+  const double widen = std::max(1.25, std::sqrt(10 * low / high));
+  return {low / widen, high * widen, from, to, true};
 }
 
 Ink curve_ink(std::size_t i) { return kInks[i % std::size(kInks)]; }
@@ -99,15 +121,14 @@ void draw_axes(Drawing& drawing, const PlotPanel& panel) {
   auto& items = drawing.items;
   for (const double v : panel.x.ticks()) {
     items.push_back(line({panel.x(v), bottom}, {panel.x(v), top}, kGrid, 1));
-    items.push_back(
-        Words{{panel.x(v), bottom + 15}, fmt::format("{:.4g}", v), Words::Anchor::middle});
+    items.push_back(Words{{panel.x(v), bottom + 15}, label(panel.x, v), Words::Anchor::middle});
   }
   for (const double v : panel.y.ticks()) {
     const bool zero = !panel.y.logarithmic && v == 0;
     items.push_back(
         line({left, panel.y(v)}, {right, panel.y(v)}, zero ? kBlack : kGrid, zero ? 1.2 : 1));
-    items.push_back(Words{
-        {left - 6, panel.y(v) + 4}, fmt::format("{:.4g}", v / panel.y_unit), Words::Anchor::end});
+    items.push_back(
+        Words{{left - 6, panel.y(v) + 4}, label(panel.y, v / panel.y_unit), Words::Anchor::end});
   }
   items.push_back(Words{{(left + right) / 2, top - 10}, panel.title, Words::Anchor::middle});
   items.push_back(Words{{(left + right) / 2, bottom + 30}, panel.x_title, Words::Anchor::middle});
@@ -128,6 +149,23 @@ void draw_curve(Drawing& drawing, const PlotPanel& panel, const std::vector<Plot
     }
     drawing.items.push_back(curve_marker(i, at));
   }
+}
+
+void draw_power_law(Drawing& drawing, const PlotPanel& panel, double slope, double x, double y) {
+  double left = panel.x.low, right = panel.x.high;
+  const auto at = [&](double v) { return y * std::pow(v / x, slope); };
+  if (slope != 0) {
+    const double bottom = x * std::pow(panel.y.low / y, 1 / slope);
+    const double top = x * std::pow(panel.y.high / y, 1 / slope);
+    left = std::max(left, std::min(bottom, top));
+    right = std::min(right, std::max(bottom, top));
+  }
+  if (!(right > left)) return;
+  drawing.items.push_back(
+      Polyline{{{panel.x(left), panel.y(at(left))}, {panel.x(right), panel.y(at(right))}},
+               kGuide,
+               1,
+               {5, 4}});
 }
 
 void draw_key(Drawing& drawing, Spot at, std::size_t i, const std::string& text) {

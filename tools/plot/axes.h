@@ -21,6 +21,9 @@ struct PlotScale {
   std::vector<double> ticks() const;
 };
 
+/// A logarithmic scale around all values, and at least a decade long.
+PlotScale log_scale_around(const std::vector<double>& values, double from, double to);
+
 struct PlotPanel {
   PlotScale x, y;
   std::string title, x_title, y_title;
@@ -48,6 +51,9 @@ struct PlotPoint {
 /// Points joined by a line; what lies beyond the panel is drawn at its rim.
 void draw_curve(Drawing& drawing, const PlotPanel& panel, const std::vector<PlotPoint>& points,
                 std::size_t i);
+
+/// The part inside a log-log panel of the power law through (x, y), dashed.
+void draw_power_law(Drawing& drawing, const PlotPanel& panel, double slope, double x, double y);
 
 /// A bit of the i-th curve, and words behind it.
 void draw_key(Drawing& drawing, Spot at, std::size_t i, const std::string& text);

@@ -34,8 +34,8 @@ struct Polygon {
 };
 
 struct Words {
-  Spot at;  // of the base line
-  std::string text = {};
+  Spot at;                // of the base line
+  std::string text = {};  // what follows "^" is raised, unless the words are turned
   enum class Anchor { start, middle, end } anchor = Anchor::start;
   bool upward = false;  // turned by a quarter, reading up the page
   bool bold = false;
@@ -44,6 +44,8 @@ struct Words {
 
 /// Height of an em of Words.
 inline constexpr double kEm = 12;
+/// By how much an exponent stands higher.
+inline constexpr double kRaise = 4;
 
 struct Drawing {
   double width = 0, height = 0;

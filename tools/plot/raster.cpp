@@ -118,7 +118,10 @@ class Canvas {
 };
 
 void Canvas::operator()(const Words& words) {
-  const int width = text_width(words.text, scale_);
+  const auto mark = words.upward ? std::string::npos : words.text.find('^');
+  const std::string plain = words.text.substr(0, mark);
+  const std::string raised = mark == std::string::npos ? "" : words.text.substr(mark + 1);
+  const int width = text_width(plain, scale_) + text_width(raised, scale_);
   const int height = line_height(scale_);
   const double shares[] = {0, 0.5, 1};
   const int before = static_cast<int>(shares[static_cast<int>(words.anchor)] * width);
@@ -127,7 +130,9 @@ void Canvas::operator()(const Words& words) {
   const TextStyle style{scale_, paint_of(words.ink)};
   if (!words.upward) {
     for (int shift = 0; shift <= (words.bold ? scale_ / 2 : 0); ++shift) {
-      draw_text(image_, x - before + shift, y - base, words.text, style);
+      draw_text(image_, x - before + shift, y - base, plain, style);
+      draw_text(image_, x - before + shift + text_width(plain, scale_),
+                y - base - static_cast<int>(kRaise * scale_), raised, style);
     }
     return;
   }

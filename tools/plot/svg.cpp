@@ -16,6 +16,14 @@ std::string path_data(const std::vector<Spot>& points, bool closed) {
   return closed ? data + "z" : data;
 }
 
+/// What stands behind "^", as drawing.h says.
+std::string raise_exponent(const std::string& text) {
+  const auto mark = text.find('^');
+  if (mark == std::string::npos) return text;
+  return fmt::format("{}<tspan dy=\"{:g}\" font-size=\"75%\">{}</tspan>", text.substr(0, mark),
+                     -kRaise, text.substr(mark + 1));
+}
+
 struct ToSvg {
   std::string operator()(const Polyline& line) const {
     std::string dashes;
@@ -40,7 +48,8 @@ struct ToSvg {
                      : fmt::format("x=\"{:.1f}\" y=\"{:.1f}\"", words.at.x, words.at.y);
     return fmt::format("<text {} text-anchor=\"{}\" fill=\"{}\"{}>{}</text>\n", place,
                        kAnchors[static_cast<int>(words.anchor)], colour(words.ink),
-                       words.bold ? " font-weight=\"bold\"" : "", escape_markup(words.text));
+                       words.bold ? " font-weight=\"bold\"" : "",
+                       raise_exponent(escape_markup(words.text)));
   }
 };
 
