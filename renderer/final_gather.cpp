@@ -51,10 +51,12 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
                                     const Level& level) const {
   SplitRadiance out;
   if (remaining(level.segments) < 1) return out;
-  const DirectStrategy strategy{Lobes::smooth, Lobes::smooth, light_samples_, level.rays,
+  // Behind a retraced ray, one of many, half as many will do.
+  const int light_samples = level.retraces > 0 ? (light_samples_ + 1) / 2 : light_samples_;
+  const DirectStrategy strategy{Lobes::smooth, Lobes::smooth, light_samples, level.rays,
                                 remaining(level.segments) - 1};
   out.direct = sample_lights(tracer, lights_, at, strategy,
-                             points(tracer, level, Use::lights, light_samples_));
+                             points(tracer, level, Use::lights, light_samples));
 
   const GatherPoint point = gather_point(tracer, at, level.segments);
   if (maps_.caustics_mapped) out.caustic = maps_.caustic.radiance(point);
@@ -75,7 +77,7 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
   for (int i = 0; i < level.rays; ++i) {
     const std::optional<GatherDirection> chosen = directions.draw(i, tracer.rng);
     if (!chosen) continue;
-    const Arrival arrival{from, chosen->bsdf_pdf_w, level.rays, light_samples_};
+    const Arrival arrival{from, chosen->bsdf_pdf_w, level.rays, light_samples};
     out.indirect += chosen->weight * follow(tracer, at.spawn(chosen->wi), next, arrival);
   }
   return out;

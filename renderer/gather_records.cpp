@@ -34,6 +34,7 @@ GatherRecords::GatherRecords(RecordSites sites, const RadianceMap& map, const Ra
       white_(make_diffuse(Color(Rgb(1)))),
       sites_(std::move(sites)),
       white_radiance_(sites_.size() * kDepths),
+      reach_(sites_.size()),
       free_(config.must_see ? sites_.size() : 0),
       surroundings_(sites_.size()) {
   for (std::uint32_t i = 0; i < map.photons().slots(); ++i) {
@@ -55,12 +56,22 @@ int GatherRecords::depth_index(int max_segments) const {
   return std::min(config_.max_segments, longest_) - std::min(max_segments, longest_);
 }
 
+/// The record that serves the point, as far as the sites know.
+std::optional<std::uint32_t> GatherRecords::find(const GatherPoint& at) const {
+  const std::optional<RecordSites::Found> found =
+      sites_.find(photon_query(at, map_->bandwidth()), at.at.facing_shading_normal());
+  if (!found) return std::nullopt;
+  const float reach = reach_.get(found->record, [&] { return sites_.reach(found->record); });
+  if (!(found->distance2 < reach * reach)) return std::nullopt;
+  return found->record;
+}
+
 /// Mostly known without a ray: nothing at all is in the way so near to the record.
 bool GatherRecords::sees(std::uint32_t record, const SurfacePoint& point, Vec3 normal) const {
   const SurfacePoint there = sites_.point(record);
   const float free = free_.get(record, [&] {
     FeelerQuery query{.point = there, .normal = there.ng, .wo = there.ng, .edges = false};
-    query.length = sites_.reach(record);
+    query.length = reach_.get(record, [&] { return sites_.reach(record); });
     return free_distance(*caster_, query, query.length, 0);
   });
   const Vec3 across = point.position - there.position;
@@ -73,12 +84,9 @@ std::optional<Rgb> GatherRecords::white_radiance(const GatherPoint& at) const {
   if (sites_.size() == 0) return std::nullopt;
   const int depth = depth_index(at.max_segments);
   if (depth < 0 || depth >= kDepths) return std::nullopt;
-  const PhotonQuery query = photon_query(at, map_->bandwidth());
-  const std::optional<std::uint32_t> record = sites_.find(query, at.at.facing_shading_normal());
+  const std::optional<std::uint32_t> record = find(at);
   if (!record) return std::nullopt;
-  if (config_.must_see && !sees(*record, at.at.point(), query.normal)) {
-    return std::nullopt;
-  }
+  if (config_.must_see && !sees(*record, at.at.point(), at.at.facing_normal())) return std::nullopt;
   return white_radiance_.get(std::size_t{*record} * kDepths + depth, [&] {
     return at_record(*record, config_.max_segments - depth,
                      [&](const GatherPoint& there) { return map_->radiance(there); });
@@ -87,8 +95,7 @@ std::optional<Rgb> GatherRecords::white_radiance(const GatherPoint& at) const {
 
 const Surroundings* GatherRecords::surroundings(const GatherPoint& at) const {
   if (sites_.size() == 0 || at.at.bsdf().smooth_transmission()) return nullptr;
-  const std::optional<std::uint32_t> record =
-      sites_.find(photon_query(at, map_->bandwidth()), at.at.facing_shading_normal());
+  const std::optional<std::uint32_t> record = find(at);
   if (!record) return nullptr;
   return &surroundings_.get(*record, [&] {
     return at_record(

@@ -42,7 +42,7 @@ class GatherRecords {
   /// Without surroundings, which few records are asked for.
   static constexpr double kBytesPerRecord = RecordSites::kBytesPerSite +
                                             kDepths * LazyValues<Rgb>::kBytesPerValue +
-                                            LazyValues<float>::kBytesPerValue + sizeof(void*);
+                                            2 * LazyValues<float>::kBytesPerValue + sizeof(void*);
 
   GatherRecords() = default;
   /// The map and the caster must outlive the records and stay where they are.
@@ -57,6 +57,7 @@ class GatherRecords {
 
  private:
   int depth_index(int max_segments) const;
+  std::optional<std::uint32_t> find(const GatherPoint& at) const;
   bool sees(std::uint32_t record, const SurfacePoint& point, Vec3 normal) const;
   template <class Use>
   auto at_record(std::uint32_t record, int max_segments, const Use& use) const;
@@ -68,6 +69,7 @@ class GatherRecords {
   std::unique_ptr<Bsdf> white_;
   RecordSites sites_;
   LazyValues<Rgb> white_radiance_;  // kDepths per record
+  LazyValues<float> reach_;         // [m] as RecordSites has it
   LazyValues<float> free_;          // [m] around a record nothing is in the way
   LazyObjects<Surroundings> surroundings_;
 };

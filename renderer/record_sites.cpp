@@ -2,13 +2,13 @@
 #include "renderer/record_sites.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
 #include "accel/block_distances.h"
 #include "accel/photon_tree_walk.h"
 #include "core/constants.h"
-#include "core/vec3d.h"
 
 namespace octolux {
 
@@ -19,23 +19,8 @@ constexpr std::uint32_t kBlockSize = PhotonTree::kBlockSize;
 /// Between the normals of a record and of a point it serves, geometric and shading ones each.
 constexpr float kMinCosine = 0.95f;
 
-/// Area [m^2] per site in a block: two random points of a square are at a mean squared distance of
-/// a third of its area, which is twice their mean squared distance from the middle.
-float area_per_site(const PhotonTree::Block& block) {
-  Vec3d sum{};
-  double sum2 = 0, count = 0;
-  const Vec3 first{block.x[0], block.y[0], block.z[0]};
-  for (std::uint32_t i = 0; i < kBlockSize; ++i) {
-    if (!(block.x[i] < kInfinity)) continue;
-    const Vec3d p(Vec3{block.x[i], block.y[i], block.z[i]} - first);
-    sum = sum + p;
-    sum2 += dot(p, p);
-    ++count;
-  }
-  if (count < 2) return 0;
-  const double variance = (sum2 - dot(sum, sum) / count) / (count - 1);
-  return static_cast<float>(3 * 2 * variance / count);
-}
+/// The density of sites is told by the distance of so many.
+constexpr std::size_t kCounted = 4;
 
 }  // namespace
 
@@ -62,39 +47,55 @@ RecordSites::RecordSites(const std::vector<Photon>& photons, const Bandwidth& ba
     sites_[i] = {photon.normal, photon.ns, photon.error};
   }
   const float share = static_cast<float>(reuse) * bandwidth.shrink;
-  max_reach2_ = share * share * bandwidth.max_radius * bandwidth.max_radius;
-  const std::uint32_t blocks = tree_.slots() / kBlockSize;
-  for (std::uint32_t b = 0; b < blocks; ++b) {
-    const float disc = area_per_site(tree_.block(b)) * static_cast<float>(neighbours);
-    reach2_.push_back(std::min(max_reach2_, share * share * disc * kInvPi));
-  }
+  scale_ = share * std::sqrt(static_cast<float>(neighbours) / kCounted);
+  max_reach_ = share * bandwidth.max_radius;
 }
 
-std::optional<std::uint32_t> RecordSites::find(const PhotonQuery& query,
-                                               Vec3 shading_normal) const {
-  std::uint32_t best = kNone;
-  float limit = max_reach2_;
+std::optional<RecordSites::Found> RecordSites::find(const PhotonQuery& query,
+                                                    Vec3 shading_normal) const {
+  Found best{kNone, max_reach_ * max_reach_};
   PhotonTreeWalk walk(tree_, query.position, facing_near(query.normal));
   for (;;) {
-    const std::uint32_t b = walk.next<PhotonTreeWalk::Order::nearest_first>(limit);
+    const std::uint32_t b = walk.next<PhotonTreeWalk::Order::nearest_first>(best.distance2);
     if (b == kNone) break;
     const BlockDistances block(tree_.block(b), query);
-    for (std::uint32_t near = block.nearer_than(limit); near != 0; near &= near - 1) {
+    for (std::uint32_t near = block.nearer_than(best.distance2); near != 0; near &= near - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(near));
       const std::uint32_t site = b * kBlockSize + lane;
-      if (!(block.distance2[lane] < limit)) continue;
+      if (!(block.distance2[lane] < best.distance2)) continue;
       if (!(dot(sites_[site].ng, query.normal) > kMinCosine)) continue;
       if (!(dot(sites_[site].ns, shading_normal) > kMinCosine)) continue;
-      limit = block.distance2[lane];
-      best = site;
+      best = {site, block.distance2[lane]};
     }
   }
-  if (best == kNone || !(limit < reach2_[best / kBlockSize])) return std::nullopt;
+  if (best.record == kNone) return std::nullopt;
   return best;
 }
 
 float RecordSites::reach(std::uint32_t record) const {
-  return std::sqrt(reach2_[record / kBlockSize]);
+  const Vec3 normal = sites_[record].ng;
+  const PhotonQuery query{.position = tree_.position(record), .normal = normal};
+  std::array<float, kCounted> nearest;  // squared distances, sorted
+  const float farthest = max_reach_ / scale_;
+  nearest.fill(farthest * farthest);
+  PhotonTreeWalk walk(tree_, query.position, facing_near(normal));
+  for (;;) {
+    const std::uint32_t b = walk.next<PhotonTreeWalk::Order::nearest_first>(nearest.back());
+    if (b == kNone) break;
+    const BlockDistances block(tree_.block(b), query);
+    for (std::uint32_t near = block.nearer_than(nearest.back()); near != 0; near &= near - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(near));
+      const std::uint32_t site = b * kBlockSize + lane;
+      const float distance2 = block.distance2[lane];
+      if (site == record || !(distance2 < nearest.back())) continue;
+      if (!(dot(sites_[site].ng, normal) > kMinCosine)) continue;
+      std::size_t place = kCounted - 1;
+      for (; place > 0 && distance2 < nearest[place - 1]; --place)
+        nearest[place] = nearest[place - 1];
+      nearest[place] = distance2;
+    }
+  }
+  return scale_ * std::sqrt(nearest.back());
 }
 
 SurfacePoint RecordSites::point(std::uint32_t record) const {

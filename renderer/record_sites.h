@@ -6,8 +6,8 @@
 // itself would find that photon at distance 0, and one found by leaving it out would know that no
 // other is between it and the point that asks: both are biased by about 1/n at every number of
 // passes. For the same reason, which record serves a point, and whether it is near enough, is
-// decided by the sites alone. "Near enough" is a share of the bandwidth, which shrinks from pass to
-// pass, so a render converges to the same picture with records and without.
+// decided by the sites alone. "Near enough" shrinks with the bandwidth from pass to pass, so a render
+// converges to the same picture with records and without.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@
 
 namespace octolux {
 
-/// Photon paths that make the sites of a map of `photons` paths: as many as put about one site into
-/// the reach of each, where a record serves half the bandwidth.
+/// Photon paths that make the sites of a map of `photons` paths: a fifth of them in the first pass,
+/// and so many later that the reach of each holds five, as then, and is about a bandwidth.
 std::int64_t record_paths(std::int64_t photons, const Bandwidth& bandwidth);
 
 /// Immutable, thread-safe.
@@ -37,25 +37,30 @@ class RecordSites {
 
   RecordSites() = default;
   /// One record for each photon, those that are not finite left out. Each serves points within the
-  /// share `reuse` of the bandwidth, as far as the density of the sites tells it, of look-ups for
-  /// `neighbours` photons.
+  /// share `reuse` of the bandwidth that a look-up for `neighbours` sites would have.
   RecordSites(const std::vector<Photon>& photons, const Bandwidth& bandwidth, int neighbours,
               double reuse);
 
   std::size_t size() const { return sites_.size(); }
-  /// The record that serves a query: the nearest in its squashed metric on a surface that faces the
-  /// same way, shading normals included, if it is near enough.
-  std::optional<std::uint32_t> find(const PhotonQuery& query, Vec3 shading_normal) const;
-  /// How far it serves [m].
+  /// A record, and how far it is from a query [m^2], squared, in the query's squashed metric.
+  struct Found {
+    std::uint32_t record = 0;
+    float distance2 = 0;
+  };
+  /// The record nearest to a query on a surface that faces the same way, shading normals included.
+  /// It serves the query if it is nearer than its reach.
+  std::optional<Found> find(const PhotonQuery& query, Vec3 shading_normal) const;
+  /// How far a record serves [m], by the distances of the sites around it. As expensive as a
+  /// look-up.
   float reach(std::uint32_t record) const;
   /// The surface at a record, its front side where the light came from.
   SurfacePoint point(std::uint32_t record) const;
 
  private:
   PhotonTree tree_;
-  std::vector<Site> sites_;    // in the tree's order
-  std::vector<float> reach2_;  // [m^2] per block of the tree: how far its records serve
-  float max_reach2_ = 0;
+  std::vector<Site> sites_;  // in the tree's order
+  float scale_ = 0;          // of reaches: distances between sites over this
+  float max_reach_ = 0;      // [m]
 };
 
 }  // namespace octolux

@@ -82,7 +82,6 @@ TEST_F(Records, TheNearestSiteThatFacesTheSameWayServes) {
   const Bandwidth bandwidth{1, 1};
   const RecordSites sites(photons, bandwidth, kNeighbours, kReuse);
   const RecordSites near(photons, bandwidth, kNeighbours, 1e-4);
-  int served = 0;
   for (int i = 0; i < 500; ++i) {
     const Vec2 at = rng_of(1, i).uniform2();
     const Vec3 position{at.x, at.y, 0.001f};
@@ -93,16 +92,36 @@ TEST_F(Records, TheNearestSiteThatFacesTheSameWayServes) {
     }
     const PhotonQuery query{.position = position, .normal = kUp};
     EXPECT_FALSE(near.find(query, kUp));
-    const std::optional<std::uint32_t> found = sites.find(query, kUp);
-    if (!found) continue;
-    ++served;
-    const Vec3 d = sites.point(*found).position - position;
-    EXPECT_EQ(sites.point(*found).ng, kUp);
+    const std::optional<RecordSites::Found> found = sites.find(query, kUp);
+    ASSERT_TRUE(found);
+    const Vec3 d = sites.point(found->record).position - position;
+    EXPECT_EQ(sites.point(found->record).ng, kUp);
     EXPECT_NEAR(dot(d, d) + 8 * d.z * d.z, nearest2, 1e-6f * nearest2);
+    EXPECT_EQ(found->distance2, nearest2);
   }
-  // Half the bandwidth holds 5 sites, of which 10 / 3 face up: e^(-10/3) of the points, 18, find
-  // none, and a few at the edges.
-  EXPECT_GT(served, 450);
+}
+
+/// Four others on a surface that faces the same way tell the bandwidth of a look-up for 20.
+TEST_F(Records, ReachAsFarAsTheSitesAroundTell) {
+  std::vector<Photon> photons = on_square(1000, rng_of(9, 0));
+  for (std::size_t i = 0; i < photons.size(); i += 3) photons[i].normal = photons[i].ns = -kUp;
+  for (const float shrink : {1.0f, 0.5f}) {
+    const RecordSites sites(photons, {1, shrink}, kNeighbours, kReuse);
+    for (const Vec2 at : {Vec2{0.5f, 0.5f}, Vec2{0, 0}, Vec2{0.2f, 0.9f}}) {
+      const PhotonQuery query{.position = {at.x, at.y, 0}, .normal = kUp};
+      const std::uint32_t record = sites.find(query, kUp)->record;
+      std::vector<float> distances;
+      for (const Photon& p : photons) {
+        if (p.normal.z > 0) distances.push_back(length(p.position - sites.point(record).position));
+      }
+      std::sort(distances.begin(), distances.end());
+      EXPECT_FLOAT_EQ(sites.reach(record),
+                      static_cast<float>(kReuse) * shrink * std::sqrt(5.0f) * distances[4]);
+    }
+  }
+  // Of one alone nobody knows.
+  const RecordSites one({photons[1]}, {2, 0.5f}, kNeighbours, kReuse);
+  EXPECT_FLOAT_EQ(one.reach(0), static_cast<float>(kReuse) * 0.5f * 2);
 }
 
 TEST_F(Records, HoldWhatALookUpFindsThere) {
