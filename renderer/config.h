@@ -27,7 +27,7 @@ struct EyeConfig {
   int samples_per_pass = 1;  // eye samples per pixel and pass
   double retrace = 2;        // gather rays shorter than this many bandwidths go on
   bool learn = true;         // gather rays learn before the first pass where light comes from
-  double reuse = 0.5;  // how far gather rays share irradiance (record_sites.h); 0: never
+  double reuse = 0.5;        // how far gather rays share irradiance (record_sites.h); 0: never
 };
 
 /// The first that is reached stops the render, at the end of a pass. 0: not set.

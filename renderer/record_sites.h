@@ -6,8 +6,8 @@
 // itself would find that photon at distance 0, and one found by leaving it out would know that no
 // other is between it and the point that asks: both are biased by about 1/n at every number of
 // passes. For the same reason, which record serves a point, and whether it is near enough, is
-// decided by the sites alone. "Near enough" shrinks with the bandwidth from pass to pass, so a render
-// converges to the same picture with records and without.
+// decided by the sites alone. "Near enough" shrinks with the bandwidth from pass to pass, so a
+// render converges to the same picture with records and without.
 #pragma once
 
 #include <cstdint>
