@@ -19,10 +19,8 @@ namespace {
 constexpr std::int64_t kTrials = 4096;  // paths of a kind
 constexpr double kUsableShare = 0.9;    // of the memory: scene and film need some, too
 
-/// Bytes of a photon on the way to a map (photon_map.cpp), in the map, and traced only.
+/// Bytes of a photon that is only traced, and of one in a map.
 constexpr double kTraced = sizeof(Photon);
-constexpr double kToMap =
-    kTraced + sizeof(PhotonTree::Item) + sizeof(PhotonPayload) + sizeof(FacingSet);
 constexpr double kInMap = sizeof(PhotonPayload) + PhotonTree::kBytesPerItem;
 
 /// Photons a path stores.
@@ -52,8 +50,8 @@ PhotonMemory foresee_photons(const Scene& scene, const LightSampler& lights, con
   }
   // As they are made (render.cpp), each while those before it stay.
   const double records = GatherRecords::kBytesPerRecord * sites;
-  const double bytes = std::max({kToMap * global, kInMap * global + kTraced * sites + records,
-                                 kInMap * global + records + kToMap * caustic});
+  const double bytes = std::max({kBytesToMap * global, kInMap * global + kTraced * sites + records,
+                                 kInMap * global + records + kBytesToMap * caustic});
   return {global + caustic, bytes};
 }
 

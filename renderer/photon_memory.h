@@ -4,10 +4,15 @@
 
 #include <cstdint>
 
+#include "accel/photon_map.h"
 #include "renderer/config.h"
 #include "renderer/learn_emission.h"
 
 namespace octolux {
+
+/// Of a photon while its map is made: as traced, packed, and as the tree sorts it.
+inline constexpr double kBytesToMap =
+    sizeof(Photon) + sizeof(PhotonTree::Item) + sizeof(PhotonPayload) + sizeof(FacingSet);
 
 struct PhotonMemory {
   double photons = 0;  // stored in a pass, in both maps

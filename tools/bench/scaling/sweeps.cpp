@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "core/parallel.h"
+#include "renderer/photon_memory.h"
 #include "renderer/photon_pass.h"
 #include "renderer/scene_loader.h"
 #include "tools/bench/measuring.h"
@@ -61,13 +62,8 @@ std::unique_ptr<Scene> load_sized(const std::string& path, int side) {
   return scene;
 }
 
-/// Memory [bytes] while a map of so many photons is built, when it is most: photons as traced, and
-/// packed beside them with what the tree sorts.
-double photon_memory(double photons) {
-  constexpr auto kBytes = static_cast<double>(sizeof(Photon) + sizeof(PhotonTree::Item) +
-                                              sizeof(PhotonPayload) + sizeof(FacingSet));
-  return kBatchMemory + kOverhead * kBytes * photons;
-}
+/// Memory [bytes] while a map of so many photons is built, when it is most.
+double photon_memory(double photons) { return kBatchMemory + kOverhead * kBytesToMap * photons; }
 
 /// Seconds to trace about so many photons, and to build their map; its bytes a photon.
 ScalingStep measure_photons(const Scene& scene, double size) {
