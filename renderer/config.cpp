@@ -14,12 +14,29 @@ void require(bool ok, const std::string& message) {
   if (!ok) throw Error(message);
 }
 
+// Chosen by error at equal time, tools/bench/README.md: more eye samples average less noise of
+// photons and fewer passes shrink the bandwidth less, so scenes with few photons lose by more.
+constexpr std::int64_t kEyeSamplesPerPhoton = 3, kMostEyeSamples = 4;
+
+/// At most `wanted`, and a divisor of `samples` if that many are asked for, so that whole passes
+/// are exactly so many.
+std::int64_t dividing(std::int64_t wanted, std::int64_t samples) {
+  while (samples % wanted != 0) --wanted;
+  return wanted;
+}
+
 }  // namespace
 
 RenderConfig resolved(RenderConfig config, std::int64_t pixels) {
   const std::int64_t automatic = std::max<std::int64_t>(50'000, pixels / 2);
   if (config.photons.global < 0) config.photons.global = automatic;
   if (config.photons.caustic < 0) config.photons.caustic = automatic;
+  if (config.eye.samples_per_pass < 0) {
+    const bool photons = config.integrator == Integrator::photon;
+    const std::int64_t wanted = photons ? kEyeSamplesPerPhoton * config.photons.global / pixels : 1;
+    config.eye.samples_per_pass = static_cast<int>(
+        dividing(std::clamp<std::int64_t>(wanted, 1, kMostEyeSamples), config.stop.samples));
+  }
   return config;
 }
 
@@ -32,7 +49,8 @@ void check(const RenderConfig& config) {
   require(config.photons.alpha > 0 && config.photons.alpha <= 1, "photons.alpha must be in (0, 1]");
   require(config.eye.gather_rays >= 1, "eye.gather_rays must be at least 1");
   require(config.eye.light_samples >= 1, "eye.light_samples must be at least 1");
-  require(config.eye.samples_per_pass >= 1, "eye.samples_per_pass must be at least 1");
+  require(config.eye.samples_per_pass >= 1 || config.eye.samples_per_pass == -1,
+          "eye.samples_per_pass must be at least 1, or -1 for automatic");
   require(config.eye.retrace >= 0, "eye.retrace must be 0 or more");
   require(config.eye.reuse >= 0 && config.eye.reuse <= 1, "eye.reuse must be in [0, 1]");
   require(config.stop.passes >= 0, "stop.passes must be 0 or more");

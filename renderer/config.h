@@ -21,13 +21,13 @@ struct PhotonConfig {
 };
 
 struct EyeConfig {
-  bool gather = true;        // false: show the global map directly
-  int gather_rays = 8;       // per eye sample
-  int light_samples = 4;     // per eye sample; each chooses one light
-  int samples_per_pass = 1;  // eye samples per pixel and pass
-  double retrace = 2;        // gather rays shorter than this many bandwidths go on
-  bool learn = true;         // gather rays learn before the first pass where light comes from
-  double reuse = 0.5;        // how far gather rays share irradiance (record_sites.h); 0: never
+  bool gather = true;         // false: show the global map directly
+  int gather_rays = 8;        // per eye sample
+  int light_samples = 4;      // per eye sample; each chooses one light
+  int samples_per_pass = -1;  // eye samples per pixel and pass; -1: see resolved()
+  double retrace = 2;         // gather rays shorter than this many bandwidths go on
+  bool learn = true;          // gather rays learn before the first pass where light comes from
+  double reuse = 0.5;         // how far gather rays share irradiance (record_sites.h); 0: never
 };
 
 /// The first that is reached stops the render, at the end of a pass. 0: not set.
@@ -78,6 +78,9 @@ void visit(Config& config, Field&& field) {
 }
 
 /// The config with every automatic value (-1) replaced by what it stands for on a film of `pixels`.
+/// A pass of photon mapping takes up to 4 eye samples per pixel, so that there are about three for
+/// every photon path: on a small film the photons would else take most of the time. The number
+/// divides stop.samples, so that exactly those are taken.
 RenderConfig resolved(RenderConfig config, std::int64_t pixels);
 
 /// Throws Error if a value is out of its range.

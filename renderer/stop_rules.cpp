@@ -36,7 +36,7 @@ bool finished(const RenderConfig& config, const Progress& p) {
 
 StopConfig default_stop(Integrator integrator) {
   StopConfig stop;
-  stop.passes = integrator == Integrator::photon ? 256 : 1024;
+  stop.samples = integrator == Integrator::photon ? 256 : 1024;
   stop.error = 0.02;
   return stop;
 }

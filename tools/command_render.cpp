@@ -53,14 +53,14 @@ std::string help_footer() {
   const StopConfig path = default_stop(Integrator::path);
   return fmt::format(
       "The first of --passes, --spp, --time and --error that is reached ends the render. Without\n"
-      "any of them: {} passes (path: {}) or an error of {} (path: {}).\n\n"
+      "any of them: {} samples per pixel (path: {}) or an error of {} (path: {}).\n\n"
       "The PNG is shown through the display and view of an OpenColorIO configuration: --ocio, or\n"
       "the one $OCIO names, or our own (display sRGB; views Standard, the plain sRGB curve,\n"
       "'ACES 1.0 SDR' and Raw). The EXR is scene-linear and never changed by them.\n\n"
       "Settings of --set, with their defaults:\n{}\n"
       "Exit codes: 0 done, 1 samples that are not finite or a fault of the program, 2 bad input,\n"
       "130 interrupted (after the picture was written).",
-      photon.passes, path.passes, photon.error, path.error, list_settings(RenderConfig{}));
+      photon.samples, path.samples, photon.error, path.error, list_settings(RenderConfig{}));
 }
 
 RenderCommand::RenderCommand(CLI::App& app, std::string command_line)

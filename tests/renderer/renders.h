@@ -81,11 +81,13 @@ inline RenderConfig path_config(int passes, std::uint64_t seed = 1) {
   return config;
 }
 
+/// One eye sample a pass, so that passes and photons are what a test counts.
 inline RenderConfig photon_config(int passes, std::int64_t photons, std::uint64_t seed = 1) {
   RenderConfig config;
   config.seed = seed;
   config.photons.global = photons;
   config.photons.caustic = photons;
+  config.eye.samples_per_pass = 1;
   config.stop.passes = passes;
   return config;
 }
