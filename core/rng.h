@@ -18,7 +18,8 @@ enum class Stream : std::uint64_t {
   record = 5,
   learning = 6,
   sequence = 7,
-  guide = 8
+  guide = 8,
+  lights = 9
 };
 
 /// splitmix64 finaliser (Steele, Lea & Flood 2014): a bijection of 64 bits with full avalanche.

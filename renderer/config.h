@@ -26,7 +26,7 @@ struct EyeConfig {
   int light_samples = 4;      // per eye sample; each chooses one light
   int samples_per_pass = -1;  // eye samples per pixel and pass; -1: see resolved()
   double retrace = 2;         // gather rays shorter than this many bandwidths go on
-  bool learn = true;          // gather rays learn before the first pass where light comes from
+  bool learn = true;          // learn before the first pass where light comes from and is seen
   double reuse = 0.5;         // how far gather rays share irradiance (record_sites.h); 0: never
 };
 

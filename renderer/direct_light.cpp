@@ -7,24 +7,6 @@ namespace octolux {
 
 namespace {
 
-/// One light sample's contribution, not yet divided by the number of samples.
-Rgb sample_one_light(Tracer& tracer, const LightSampler::Choice& choice, Vec2 u,
-                     const Scattering& at, const DirectStrategy& strategy) {
-  const std::optional<LightSample> light = choice.sample(at.point().position, u);
-  if (!light) return Rgb(0);
-  const Rgb scattered = at.f_cos(light->wi, strategy.lobes) * light->radiance;
-  if (is_black(scattered)) return Rgb(0);
-  const float pdf_w = choice.pmf * light->pdf_w;
-  const float share = light->delta
-                          ? 1.0f
-                          : power_heuristic(static_cast<float>(strategy.light_samples), pdf_w,
-                                            static_cast<float>(strategy.bsdf_samples),
-                                            at.pdf_w(light->wi, strategy.sampled));
-  const Rgb value = scattered * (share / pdf_w);
-  return is_black(value) ? value
-                         : value * tracer.visibility(at.point(), *light, strategy.max_crossings);
-}
-
 float bsdf_share(const Arrival& arrival, float light_pdf_w) {
   if (arrival.light_samples == 0) return 1;
   return power_heuristic(static_cast<float>(arrival.bsdf_samples), arrival.pdf_w,
@@ -40,17 +22,34 @@ Receiver receiver(const Scattering& at) {
 }
 
 Rgb sample_lights(Tracer& tracer, const LightSampler& lights, const Scattering& at,
-                  const DirectStrategy& strategy, const PointSet& points) {
+                  const Receiver& lit, const DirectStrategy& strategy, const PointSet& points) {
   if (lights.empty() || strategy.max_crossings < 0) return Rgb(0);
   Rgb total(0);
   const auto n = static_cast<float>(strategy.light_samples);
-  const Receiver lit = receiver(at);
   for (int i = 0; i < strategy.light_samples; ++i) {
     const float u_light = (static_cast<float>(i) + tracer.rng.uniform()) / n;
     const LightSampler::Choice choice = lights.sample(lit, std::min(kOneMinusEpsilon, u_light));
-    total += sample_one_light(tracer, choice, points[i], at, strategy);
+    total += sample_light(tracer, choice, points[i], at, strategy);
   }
   return total / n;
+}
+
+Rgb sample_light(Tracer& tracer, const LightSampler::Choice& choice, Vec2 u, const Scattering& at,
+                 const DirectStrategy& strategy) {
+  if (!choice.light) return Rgb(0);
+  const std::optional<LightSample> light = choice.sample(at.point().position, u);
+  if (!light) return Rgb(0);
+  const Rgb scattered = at.f_cos(light->wi, strategy.lobes) * light->radiance;
+  if (is_black(scattered)) return Rgb(0);
+  const float pdf_w = choice.pmf * light->pdf_w;
+  const float share = light->delta
+                          ? 1.0f
+                          : power_heuristic(static_cast<float>(strategy.light_samples), pdf_w,
+                                            static_cast<float>(strategy.bsdf_samples),
+                                            at.pdf_w(light->wi, strategy.sampled));
+  const Rgb value = scattered * (share / pdf_w);
+  return is_black(value) ? value
+                         : value * tracer.visibility(at.point(), *light, strategy.max_crossings);
 }
 
 Rgb emitted(const LightSampler& lights, const SurfaceHit& hit, Vec3 wo, const Arrival& arrival) {
@@ -64,7 +63,8 @@ Rgb environment(const Scene& scene, const LightSampler& lights, Vec3 wi, const A
   if (!scene.environment) return Rgb(0);
   const Rgb radiance = scene.environment->radiance(wi);
   if (arrival.light_samples == 0) return radiance;
-  return radiance * bsdf_share(arrival, lights.pmf_of_environment() * scene.environment->pdf_w(wi));
+  const float pmf = lights.pmf_of_environment(arrival.from);
+  return radiance * bsdf_share(arrival, pmf * scene.environment->pdf_w(wi));
 }
 
 }  // namespace octolux

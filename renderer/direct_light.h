@@ -21,9 +21,14 @@ struct DirectStrategy {
 Receiver receiver(const Scattering& at);
 
 /// Next-event estimation at `at`: radiance towards at.wo(), the share of it that the heuristic
-/// gives this technique. `points`: one for each light sample.
+/// gives this technique. `lit` is receiver(at). `points`: one for each light sample.
 Rgb sample_lights(Tracer& tracer, const LightSampler& lights, const Scattering& at,
-                  const DirectStrategy& strategy, const PointSet& points);
+                  const Receiver& lit, const DirectStrategy& strategy, const PointSet& points);
+
+/// What one choice of a light brings, with `u` for the place on it, before dividing by the number
+/// of samples: its mean is that of sample_lights.
+Rgb sample_light(Tracer& tracer, const LightSampler::Choice& choice, Vec2 u, const Scattering& at,
+                 const DirectStrategy& strategy);
 
 /// How a path arrived where it is, as far as the heuristic must know.
 struct Arrival {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "renderer/glance.h"
 #include "renderer/roulette.h"
 #include "renderer/tracer.h"
 
@@ -21,7 +22,6 @@ constexpr float kNear = 1 / 16.0f;
 constexpr std::int64_t kEyePaths = 8192;
 constexpr int kGatherRays = 2;
 constexpr std::int64_t kChunk = 256;  // eye paths
-constexpr int kMaxBounces = 32;       // specular ones, without roulette
 
 /// Places found, and the eye that looks.
 struct Glances {
@@ -31,30 +31,20 @@ struct Glances {
   bool near(Vec3 a, Vec3 b) const { return length(a - b) < kNear * length(a - eye); }
 };
 
-/// Follows `ray` through specular lobes to the first smooth ones, and adds that place. Or else,
-/// from there, looks `gather_rays` times once more, and leaves out what is near.
-void look(Tracer& tracer, Ray ray, int gather_rays, Glances& glances) {
-  Rgb beta(1);
-  for (int bounces = 0, segments = 0; bounces < kMaxBounces; ++bounces) {
-    const std::optional<SurfaceHit> hit = tracer.next(ray, beta, segments);
-    if (!hit) return;
-    const Scattering at(hit->point, *hit->bsdf, -ray.direction, Carried::radiance);
-    const Vec3 here = hit->point.position;
-    if (hit->bsdf->has(Lobes::smooth)) {
-      if (gather_rays == 0) glances.found.push_back({here, at.facing_normal()});
-      for (int i = 0; i < gather_rays; ++i) {
-        const std::size_t before = glances.found.size();
-        const std::optional<BsdfSample> s = sample_lobes(tracer.rng, at, Lobes::smooth);
-        if (s) look(tracer, at.spawn(s->wi), 0, glances);
-        const bool added = glances.found.size() > before;
-        if (added && glances.near(here, glances.found.back().position)) glances.found.pop_back();
-      }
-      return;
+/// Adds the place where `ray` meets the first smooth lobes. Or else, from there, looks
+/// `gather_rays` times once more, and leaves out what is near.
+void look(Tracer& tracer, const Ray& ray, int gather_rays, Glances& glances) {
+  follow_to_smooth(tracer, ray, [&](const Scattering& at) {
+    const Vec3 here = at.point().position;
+    if (gather_rays == 0) glances.found.push_back({here, at.facing_normal()});
+    for (int i = 0; i < gather_rays; ++i) {
+      const std::size_t before = glances.found.size();
+      const std::optional<BsdfSample> s = sample_lobes(tracer.rng, at, Lobes::smooth);
+      if (s) look(tracer, at.spawn(s->wi), 0, glances);
+      const bool added = glances.found.size() > before;
+      if (added && glances.near(here, glances.found.back().position)) glances.found.pop_back();
     }
-    const std::optional<BsdfSample> s = sample_lobes(tracer.rng, at, Lobes::specular);
-    if (!s) return;
-    ray = at.spawn(s->wi);
-  }
+  });
 }
 
 }  // namespace
@@ -125,11 +115,7 @@ EyeCells look_around(const Scene& scene, PhotonKind kind, std::uint64_t seed) {
                         for (std::int64_t i = begin; i < end; ++i) {
                           const auto index = static_cast<std::uint64_t>(i);
                           Tracer tracer(scene, Rng(seed, Stream::learning, 0, index));
-                          const Vec2 u = tracer.rng.uniform2();
-                          const Vec2 lens = tracer.rng.uniform2();
-                          const Vec2 pixel{u.x * static_cast<float>(scene.film.crop_width),
-                                           u.y * static_cast<float>(scene.film.crop_height)};
-                          look(tracer, scene.camera.ray(pixel, lens), gather_rays,
+                          look(tracer, random_eye_ray(scene, tracer.rng), gather_rays,
                                parts[static_cast<std::size_t>(chunk)]);
                         }
                       });

@@ -12,7 +12,7 @@ Rgb near_specular_direct(Tracer& tracer, const LightSampler& lights, const Scatt
                          int max_crossings) {
   if (!at.bsdf().has(Lobes::near_specular)) return Rgb(0);
   const DirectStrategy strategy{Lobes::near_specular, Lobes::specular, 1, 1, max_crossings};
-  return sample_lights(tracer, lights, at, strategy, {1, tracer.rng});
+  return sample_lights(tracer, lights, at, receiver(at), strategy, {1, tracer.rng});
 }
 
 }  // namespace

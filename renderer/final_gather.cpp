@@ -16,11 +16,11 @@ constexpr int kMaxRetraces = 16;
 }  // namespace
 
 FinalGather::FinalGather(const Scene& scene, const LightSampler& lights, const PhotonMaps& maps,
-                         const LearnedGuides& guides, const RenderConfig& config)
+                         const Learned& learned, const RenderConfig& config)
     : scene_(scene),
       lights_(lights),
       maps_(maps),
-      guides_(guides),
+      learned_(learned),
       config_(config),
       light_samples_(lights.empty() ? 0 : config.eye.light_samples) {}
 
@@ -55,7 +55,9 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
   const int light_samples = level.retraces > 0 ? (light_samples_ + 1) / 2 : light_samples_;
   const DirectStrategy strategy{Lobes::smooth, Lobes::smooth, light_samples, level.rays,
                                 remaining(level.segments) - 1};
-  out.direct = sample_lights(tracer, lights_, at, strategy,
+  Receiver lit = receiver(at);
+  lit.learned = learned_.lights.at(lit.position, at.facing_normal());
+  out.direct = sample_lights(tracer, lights_, at, lit, strategy,
                              points(tracer, level, Use::lights, light_samples));
 
   const GatherPoint point = gather_point(tracer, at, level.segments);
@@ -64,20 +66,19 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
   Level next = level;
   Surroundings own;
   const Surroundings* around = &own;
-  const LearnedGuide* learned = nullptr;
+  const LearnedGuide* guide = nullptr;
   if (next.read_distance < 0) {
     around = maps_.records.surroundings(point);
     if (!around) around = &(own = survey(maps_.global, point, config_.estimator.neighbours));
-    learned = guides_.find(at.point().position, at.facing_normal());
+    guide = learned_.guides.find(at.point().position, at.facing_normal());
     next.read_distance = static_cast<float>(config_.eye.retrace) * around->bandwidth;
   }
-  const Receiver from = receiver(at);
   const PointSet u = points(tracer, level, Use::gather, level.rays);
-  const GatherDirections directions(at, {around->guide, learned}, level.rays, u);
+  const GatherDirections directions(at, {around->guide, guide}, level.rays, u);
   for (int i = 0; i < level.rays; ++i) {
     const std::optional<GatherDirection> chosen = directions.draw(i, tracer.rng);
     if (!chosen) continue;
-    const Arrival arrival{from, chosen->bsdf_pdf_w, level.rays, light_samples};
+    const Arrival arrival{lit, chosen->bsdf_pdf_w, level.rays, light_samples};
     out.indirect += chosen->weight * follow(tracer, at.spawn(chosen->wi), next, arrival);
   }
   return out;

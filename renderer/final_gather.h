@@ -9,6 +9,7 @@
 #include "renderer/direct_light.h"
 #include "renderer/gather_records.h"
 #include "renderer/learned_guides.h"
+#include "renderer/learned_lights.h"
 
 namespace octolux {
 
@@ -18,6 +19,12 @@ struct PhotonMaps {
   RadianceMap caustic;
   GatherRecords records;         // of the global map; may be none
   bool caustics_mapped = false;  // is L S+ D read from the caustic map (or traced by gather rays)?
+};
+
+/// What is learned before the first pass.
+struct Learned {
+  LearnedGuides guides;
+  LearnedLights lights;
 };
 
 /// Radiance split by path class.
@@ -30,7 +37,7 @@ struct SplitRadiance {
 class FinalGather {
  public:
   FinalGather(const Scene& scene, const LightSampler& lights, const PhotonMaps& maps,
-              const LearnedGuides& guides, const RenderConfig& config);
+              const Learned& learned, const RenderConfig& config);
 
   /// Smooth-lobe radiance leaving `at`, which the eye path reached over `segments` segments.
   SplitRadiance radiance(Tracer& tracer, const Scattering& at, int segments) const;
@@ -53,7 +60,7 @@ class FinalGather {
   const Scene& scene_;
   const LightSampler& lights_;
   const PhotonMaps& maps_;
-  const LearnedGuides& guides_;
+  const Learned& learned_;
   const RenderConfig& config_;
   int light_samples_;
 };

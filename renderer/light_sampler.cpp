@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/sampling.h"
 #include "renderer/scene.h"
 
 namespace octolux {
@@ -20,6 +21,18 @@ constexpr std::size_t kManyTriangles = 16;
 constexpr int kMostParts = 64, kMostPartsInAll = 1 << 14;
 /// A part counts as no less than this share of its mesh, so that weights are above 0.
 constexpr double kLeastShare = 1e-12;
+
+/// This share of the choices does not follow what was learned: so much variance is lost at most
+/// where it is wrong, and gained where it is right. (Measured: 1/4 is nearly as good.)
+constexpr float kUnlearned = 0.125f;
+
+/// Probability of a group which without learning is `pmf`.
+float pmf_of_group(const Receiver& at, int group, float pmf) {
+  if (at.learned.empty()) return pmf;
+  const auto i = static_cast<std::size_t>(group);
+  const float learned = at.learned[i] - (i > 0 ? at.learned[i - 1] : 0);
+  return kUnlearned * pmf + (1 - kUnlearned) * learned;
+}
 
 }  // namespace
 
@@ -36,7 +49,7 @@ LightSampler::LightSampler(const Scene& scene) {
   divide(power);
 
   for (std::size_t i = 0; i < infinite_.size(); ++i) {
-    if (infinite_[i] == scene.environment) pmf_of_environment_ = kinds_.pmf(static_cast<int>(i));
+    if (infinite_[i] == scene.environment) environment_ = static_cast<int>(i);
   }
   std::vector<int> first(lights_.size(), -1);
   for (std::size_t i = 0, next = 0; i < lights_.size(); ++i) {
@@ -99,18 +112,48 @@ void LightSampler::divide(const std::vector<double>& power) {
   pmf_of_tree_ = kinds_.pmf(static_cast<int>(infinite_.size()));
 }
 
-LightSampler::Choice LightSampler::sample(const Receiver& at, float u) const {
-  if (empty()) return {};
-  float share = 1;
+/// Of a light of the tree; its pmf is still the one within its group.
+LightSampler::Choice LightSampler::choice(const LightTree::Choice& leaf) const {
+  const Finite& finite = finite_[leaf.light];
+  return {finite.light, leaf.pmf_in_group,       finite.parts,
+          finite.part,  infinite() + leaf.group, pmf_of_tree_ * leaf.pmf_of_group};
+}
+
+LightSampler::Choice LightSampler::sample_unlearned(const Receiver& at, float u) const {
   if (!infinite_.empty()) {
     const Distribution1D::Sample kind = kinds_.sample(u);
-    if (kind.index < static_cast<int>(infinite_.size())) return {infinite_[kind.index], kind.pmf};
-    share = kind.pmf;
+    if (kind.index < infinite()) {
+      return {infinite_[kind.index], 1, nullptr, 0, kind.index, kind.pmf};
+    }
     u = kind.u;
   }
-  const LightTree::Choice chosen = tree_.sample(at, u);
-  const Finite& finite = finite_[chosen.light];
-  return {finite.light, share * chosen.pmf, finite.parts, finite.part};
+  return choice(tree_.sample(at, u));
+}
+
+LightSampler::Choice LightSampler::sample_learned(const Receiver& at, float u) const {
+  const auto found = std::upper_bound(at.learned.begin(), at.learned.end(), u);
+  if (found == at.learned.end()) return {};
+  const auto group = static_cast<int>(found - at.learned.begin());
+  if (group < infinite()) {
+    return {infinite_[group], 1, nullptr, 0, group, kinds_.pmf(group)};
+  }
+  const float below = group > 0 ? found[-1] : 0;
+  const float within = std::min(kOneMinusEpsilon, (u - below) / (*found - below));
+  return choice(tree_.sample_in(at, group - infinite(), within));
+}
+
+LightSampler::Choice LightSampler::sample(const Receiver& at, float u) const {
+  if (empty()) return {};
+  Choice chosen;
+  if (at.learned.empty()) {
+    chosen = sample_unlearned(at, u);
+  } else if (u < kUnlearned) {
+    chosen = sample_unlearned(at, u / kUnlearned);
+  } else {
+    chosen = sample_learned(at, (u - kUnlearned) / (1 - kUnlearned));
+  }
+  if (chosen.light) chosen.pmf *= pmf_of_group(at, chosen.group, chosen.pmf_of_group);
+  return chosen;
 }
 
 LightSampler::Choice LightSampler::sample_for_emission(float u) const {
@@ -124,7 +167,12 @@ float LightSampler::pmf_of_shape(const Receiver& at, std::uint32_t shape,
   if (leaves_of_shape_.empty() || leaves_of_shape_[shape].first < 0) return 0;
   const Leaves& leaves = leaves_of_shape_[shape];
   const int part = leaves.parts ? leaves.parts->part_of(primitive) : 0;
-  return pmf_of_tree_ * tree_.pmf(at, leaves.first + part);
+  const Choice chosen = choice(tree_.choice(at, leaves.first + part));
+  return chosen.pmf * pmf_of_group(at, chosen.group, chosen.pmf_of_group);
+}
+
+float LightSampler::pmf_of_environment(const Receiver& at) const {
+  return environment_ < 0 ? 0 : pmf_of_group(at, environment_, kinds_.pmf(environment_));
 }
 
 float LightSampler::pdf_w(const Receiver& at, const AreaLight& light, const SurfacePoint& y) const {

@@ -3,7 +3,11 @@
 // the tree as a whole share the probability, half of it evenly, half by power. Photons leave lights
 // by power alone, so that all carry about the same flux. A light without power is never chosen. No
 // light at all is legal: then nothing is ever chosen. A mesh of many triangles stands in the tree
-// part by part (core/light_parts.h). Immutable, so thread-safe.
+// part by part (core/light_parts.h).
+//
+// Where a Receiver knows what was learned (learned_lights.h), most choices follow that: first a
+// group of lights, which is an infinite one or one of the tree's, then within it as ever.
+// Immutable, so thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -29,13 +33,16 @@ class LightSampler {
     float pmf = 0;
     const MeshParts* parts = nullptr;  // if it is but one part of the light
     int part = 0;
+    int group = -1;
+    float pmf_of_group = 0;  // where nothing is learned
 
     /// As Light::sample.
     std::optional<LightSample> sample(Vec3 x, Vec2 u) const {
       return parts ? parts->sample(part, x, u) : light->sample(x, u);
     }
   };
-  /// A light for next-event estimation at `at`; `u` uniform in [0, 1). O(log lights).
+  /// A light for next-event estimation at `at`; `u` uniform in [0, 1). None where nothing was
+  /// learned to bring light, but for now and then. O(log lights).
   Choice sample(const Receiver& at, float u) const;
   /// A light for a photon to leave, exactly in proportion to power (mean of the channels).
   Choice sample_for_emission(float u) const;
@@ -47,7 +54,9 @@ class LightSampler {
   /// `at` to y, which is on `light`.
   float pdf_w(const Receiver& at, const AreaLight& light, const SurfacePoint& y) const;
   /// Probability that `sample` chooses the environment; 0 if there is none.
-  float pmf_of_environment() const { return pmf_of_environment_; }
+  float pmf_of_environment(const Receiver& at) const;
+  /// Groups that can be told apart by learning.
+  int groups() const { return infinite() + tree_.groups(); }
 
   /// Is there nothing to choose?
   bool empty() const { return !(total_power() > 0); }
@@ -62,6 +71,10 @@ class LightSampler {
     int part = 0;
   };
   void divide(const std::vector<double>& power);
+  int infinite() const { return static_cast<int>(infinite_.size()); }
+  Choice sample_unlearned(const Receiver& at, float u) const;
+  Choice sample_learned(const Receiver& at, float u) const;
+  Choice choice(const LightTree::Choice& leaf) const;
   void cut(const Scene& scene);
 
   std::vector<const Light*> lights_;
@@ -72,7 +85,7 @@ class LightSampler {
   LightTree tree_;
   Distribution1D kinds_;  // every infinite light, then the tree
   float pmf_of_tree_ = 0;
-  float pmf_of_environment_ = 0;
+  int environment_ = -1;  // index in infinite_
   /// Per shape: its parts or nullptr, and its (first) index in finite_ or -1.
   struct Leaves {
     const MeshParts* parts = nullptr;

@@ -11,6 +11,9 @@
 // at each node knows weights only. In three rooms of a house this leaves a half to a fifth of the
 // variance that plain irradiance does, and in one open room costs a fifth.
 //
+// Whoever knows more than that chooses a group of lights by himself (light_sampler.h): a subtree
+// some levels below the root.
+//
 // O(log n) for choosing and for the probability; no allocation. The walk inverts a cumulative sum
 // over the leaves, so strata of u stay together. Built deterministically. Immutable once built, so
 // thread-safe.
@@ -26,8 +29,9 @@ namespace octolux {
 /// A point where light is wanted, as far as choosing a light looks at it.
 struct Receiver {
   Vec3 position;
-  Vec3 normal;              // unit, on the side that scatters towards the viewer
-  bool both_sides = false;  // may light from behind be scattered to the viewer, too?
+  Vec3 normal;                          // unit, on the side that scatters towards the viewer
+  bool both_sides = false;              // may light from behind be scattered to the viewer, too?
+  std::span<const float> learned = {};  // chances of LightSampler's groups (learned_lights.h)
 };
 
 class LightTree {
@@ -38,13 +42,19 @@ class LightTree {
 
   struct Choice {
     int light = -1;  // index into the constructor's list; -1: there are none
-    float pmf = 0;
+    int group = -1;
+    float pmf_of_group = 0, pmf_in_group = 0;
+    float pmf() const { return pmf_of_group * pmf_in_group; }
   };
   /// `u` uniform in [0, 1).
   Choice sample(const Receiver& at, float u) const;
-  /// Probability that `sample` chooses `light`. Sums to 1 over all lights at every point.
-  float pmf(const Receiver& at, int light) const;
+  /// As `sample` chooses where it chooses that group.
+  Choice sample_in(const Receiver& at, int group, float u) const;
+  /// The choice of `light`, with the probabilities with which `sample` makes it; those of all
+  /// lights sum to 1 at every point.
+  Choice choice(const Receiver& at, int light) const;
 
+  int groups() const { return static_cast<int>(roots_.size()); }
   bool empty() const { return nodes_.empty(); }
 
  private:
@@ -60,15 +70,19 @@ class LightTree {
     float part = 0;       // of its parent's weight, if it is a first child
     int child = -1;       // the first one; or -1 - light
     int parent = -1;
+    int group = -1;  // that it is the root or a part of
   };
   class Builder;
 
+  Choice descend(const Receiver& at, float u, int index) const;
+  float share(const Receiver& at, int index) const;
   float first_share(const Receiver& at, int first) const;
   float importance(const Node& node, const Receiver& at) const;
   static float emission(const Node& node, Vec3 wi, float sin_seen);
 
   std::vector<Node> nodes_;  // the root first
   std::vector<int> leaf_;    // per light
+  std::vector<int> roots_;   // per group
   float unit_ = 1;           // [m] extent of all lights
 };
 

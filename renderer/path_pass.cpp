@@ -32,7 +32,7 @@ EyeSample trace_path(Tracer& tracer, const LightSampler& lights, Ray ray) {
     if (samples_lights) {
       Rgb& lit = bounces == 0 ? out.direct : out.indirect;
       const DirectStrategy strategy{.max_crossings = max_segments - segments - 1};
-      lit += beta * sample_lights(tracer, lights, at, strategy, {1, tracer.rng});
+      lit += beta * sample_lights(tracer, lights, at, receiver(at), strategy, {1, tracer.rng});
     }
     const std::optional<BsdfSample> sample = sample_lobes(tracer.rng, at, Lobes::all);
     if (!sample) break;

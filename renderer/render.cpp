@@ -7,7 +7,6 @@
 #include "core/check.h"
 #include "renderer/eye_pass.h"
 #include "renderer/learn_emission.h"
-#include "renderer/learned_guides.h"
 #include "renderer/path_pass.h"
 
 namespace octolux {
@@ -45,7 +44,7 @@ struct Job {
   const LightSampler lights;
   const std::unique_ptr<Estimator> estimator;
   PhotonAim aim;
-  LearnedGuides guides;
+  Learned learned;
 
   PassKey key(int pass) const { return {config.seed, static_cast<std::uint64_t>(pass)}; }
 };
@@ -106,7 +105,7 @@ PixelPass photon_mapping_pass(const Job& job, PassKey key, Progress& progress) {
   if (job.config.eye.gather) maps.caustic = make_map(job, PhotonKind::caustic, key, progress);
 
   Stopwatch watch;
-  const FinalGather gather(job.scene, job.lights, maps, job.guides, job.config);
+  const FinalGather gather(job.scene, job.lights, maps, job.learned, job.config);
   PixelPass pixels = trace_pixels(job.scene, job.config.eye.samples_per_pass, key,
                                   [&](Tracer& tracer, const Ray& ray) {
                                     return trace_eye_path(tracer, job.lights, gather, ray);
@@ -142,7 +141,8 @@ RenderResult render(const Scene& scene, const RenderConfig& wanted, RenderObserv
     const PhotonMemory memory = foresee_photons(scene, job.lights, job.aim, config);
     check_photons(memory, config, physical_memory());
     observer.photons_foreseen(memory);
-    job.guides = learn_guides(scene, {job.lights, job.aim.global}, config);
+    job.learned.guides = learn_guides(scene, {job.lights, job.aim.global}, config);
+    job.learned.lights = learn_lights(scene, job.lights, config);
   }
   RenderResult result =
       start ? std::move(*start) : RenderResult{Film(film.crop_width, film.crop_height), {}, false};

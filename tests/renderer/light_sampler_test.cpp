@@ -71,7 +71,7 @@ TEST(LightSampler, ChoosesAsDocumented) {
   EXPECT_GT(share_p(scene, power, [&](float u) { return sampler.sample_for_emission(u); }), kAlpha);
   EXPECT_EQ(sampler.pmf_of_shape(kAbove, 1), 0);
   EXPECT_EQ(sampler.pmf_of_shape(kAbove, 3), 0);
-  EXPECT_FLOAT_EQ(sampler.pmf_of_environment(), 0.35f);
+  EXPECT_FLOAT_EQ(sampler.pmf_of_environment(kAbove), 0.35f);
   EXPECT_NEAR(sampler.total_power(), 10 * std::acos(-1.0), 1e-5);
 }
 
@@ -157,7 +157,7 @@ TEST(LightSampler, NoLightOrNoPower) {
   const LightSampler none(dark);
   EXPECT_EQ(none.sample(kAbove, 0.5f).light, nullptr);
   EXPECT_EQ(none.sample_for_emission(0.5f).light, nullptr);
-  EXPECT_EQ(none.pmf_of_environment(), 0);
+  EXPECT_EQ(none.pmf_of_environment(kAbove), 0);
   EXPECT_EQ(none.total_power(), 0);
   dark.lights.push_back(make_point_light({0, 0, 0}, Rgb(0)));
   const LightSampler black(dark);

@@ -68,7 +68,7 @@ TEST(LightTree, ProbabilitiesSumToOne) {
     for (int i = 0; i < 20; ++i) {
       const Receiver at = random_receiver(rng);
       double sum = 0;
-      for (int l = 0; l < count; ++l) sum += static_cast<double>(tree.pmf(at, l));
+      for (int l = 0; l < count; ++l) sum += static_cast<double>(tree.choice(at, l).pmf());
       // Each share and each product of a walk rounds once; no walk is longer than `count` or 64.
       EXPECT_NEAR(sum, 1, 2 * std::min(count, 64) * 0x1p-24) << count;
     }
@@ -87,9 +87,10 @@ TEST(LightTree, ChoosesAsItSays) {
     for (int j = 0; j < kDraws; ++j) {
       const LightTree::Choice c = tree.sample(at, rng.uniform());
       ++counts[c.light];
-      ASSERT_NEAR(c.pmf / tree.pmf(at, c.light), 1, 64 * 0x1p-23);
+      ASSERT_NEAR(c.pmf() / tree.choice(at, c.light).pmf(), 1, 64 * 0x1p-23);
     }
-    for (int l = 0; l < 60; ++l) expected.push_back(kDraws * static_cast<double>(tree.pmf(at, l)));
+    for (int l = 0; l < 60; ++l)
+      expected.push_back(kDraws * static_cast<double>(tree.choice(at, l).pmf()));
     EXPECT_GT(chi2_test_p(counts, expected), sidak(kAlpha, kReceivers));
   }
 }
@@ -107,7 +108,7 @@ TEST(LightTree, StrataStayTogether) {
     for (int j = 0; j < n; ++j) {
       ++counts[tree.sample(at, (static_cast<float>(j) + rng.uniform()) / n).light];
     }
-    for (int l = 0; l < 30; ++l) EXPECT_NEAR(counts[l], n * tree.pmf(at, l), 2.001);
+    for (int l = 0; l < 30; ++l) EXPECT_NEAR(counts[l], n * tree.choice(at, l).pmf(), 2.001);
   }
 }
 
@@ -135,7 +136,7 @@ TEST(LightTree, NeverZeroWhereLightArrives) {
     for (int k = 0; k < 40; ++k) {
       bool any = false;
       for (int j = 0; j < 8; ++j) any |= contributes(*scene.lights[k], at, rng);
-      const bool chosen = tree.pmf(at, k) > 0;
+      const bool chosen = tree.choice(at, k).pmf() > 0;
       zero += !chosen;
       lit += any;
       EXPECT_TRUE(chosen || !any) << i << ' ' << k;
@@ -194,7 +195,7 @@ TEST(LightTree, LightsInOnePlaceFarAwayOrOfAllPowers) {
   for (const Vec3 x : {Vec3{1, 2, 3}, Vec3{1e18f, 0, 0}, Vec3{0, 1e19f, 0}, Vec3{0, 0, 0}}) {
     double sum = 0;
     for (int l = 0; l < 302; ++l) {
-      const float pmf = tree.pmf({x, {0, 0, 1}, true}, l);
+      const float pmf = tree.choice({x, {0, 0, 1}, true}, l).pmf();
       EXPECT_GT(pmf, 0);
       sum += static_cast<double>(pmf);
     }
@@ -206,11 +207,11 @@ TEST(LightTree, KnowsNearFromFarFrontFromBack) {
   const auto lamp = [](float x, float y) { return LightBounds{{{{x, y, 0}, {x, y, 0}}}, 1}; };
   const LightTree tree(std::vector<LightBounds>{lamp(0, 1), lamp(10, 1), lamp(1, -1)});
   const Receiver at{{0, 0, 0}, {0, 1, 0}};
-  EXPECT_GT(tree.pmf(at, 0), 0.8f);
-  EXPECT_GT(tree.pmf(at, 1), 0.0f);
-  EXPECT_EQ(tree.pmf(at, 2), 0.0f);
-  EXPECT_GT(tree.pmf({{10, 0, 0}, {0, 1, 0}}, 1), 0.8f);
-  EXPECT_GT(tree.pmf({{0, 0, 0}, {0, 1, 0}, true}, 2), 0.1f);
+  EXPECT_GT(tree.choice(at, 0).pmf(), 0.8f);
+  EXPECT_GT(tree.choice(at, 1).pmf(), 0.0f);
+  EXPECT_EQ(tree.choice(at, 2).pmf(), 0.0f);
+  EXPECT_GT(tree.choice({{10, 0, 0}, {0, 1, 0}}, 1).pmf(), 0.8f);
+  EXPECT_GT(tree.choice({{0, 0, 0}, {0, 1, 0}, true}, 2).pmf(), 0.1f);
 }
 
 }  // namespace

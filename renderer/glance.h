@@ -1,0 +1,19 @@
+// A look from the eye, before any pass: along a random eye path to the first place where light is
+// gathered. What is learned for the picture is learned from such places.
+#pragma once
+
+#include <functional>
+
+#include "core/scattering.h"
+#include "renderer/tracer.h"
+
+namespace octolux {
+
+/// A ray through a random point of the film.
+Ray random_eye_ray(const Scene& scene, Rng& rng);
+
+/// Follows `ray` through specular lobes and calls see(at) where it meets the first smooth ones, if
+/// ever it does.
+void follow_to_smooth(Tracer& tracer, Ray ray, const std::function<void(const Scattering&)>& see);
+
+}  // namespace octolux
