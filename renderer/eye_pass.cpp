@@ -50,7 +50,7 @@ EyeSample trace_eye_path(Tracer& tracer, const LightSampler& lights, const Final
     if (!sample) break;
     beta *= sample->weight;
     eta *= sample->eta;
-    if (bounces >= kSafeBounces && !survives(tracer.rng, beta, eta)) break;
+    if (bounces >= kSafeBounces && !survives(tracer.rng, beta, survival(beta, eta))) break;
     ray = at.spawn(sample->wi);
     arrival = {receiver(at), sample->pdf_w, 1,
                sample->lobe == Lobes::near_specular && !scene.lights.empty() ? 1 : 0};

@@ -12,6 +12,9 @@ namespace {
 
 constexpr int kUnlimited = 1 << 20;  // segments
 constexpr int kMaxRetraces = 16;
+/// Retraced paths end by roulette where a surface scatters less than the inverse of this. A dark
+/// living room then takes 0.7 of the time, with 2 % more noise; without the factor, 7 % more.
+constexpr float kRetraceChance = 1.5f;
 
 }  // namespace
 
@@ -76,10 +79,13 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
   const PointSet u = points(tracer, level, Use::gather, level.rays);
   const GatherDirections directions(at, {around->guide, guide}, level.rays, u);
   for (int i = 0; i < level.rays; ++i) {
-    const std::optional<GatherDirection> chosen = directions.draw(i, tracer.rng);
+    std::optional<GatherDirection> chosen = directions.draw(i, tracer.rng);
     if (!chosen) continue;
+    Rgb& weight = chosen->weight;
+    const float chance = std::min(1.0f, kRetraceChance * max_component(weight));
+    if (level.retraces > 0 && !survives(tracer.rng, weight, chance)) continue;
     const Arrival arrival{lit, chosen->bsdf_pdf_w, level.rays, light_samples};
-    out.indirect += chosen->weight * follow(tracer, at.spawn(chosen->wi), next, arrival);
+    out.indirect += weight * follow(tracer, at.spawn(chosen->wi), next, arrival);
   }
   return out;
 }
@@ -127,7 +133,7 @@ Rgb FinalGather::follow(Tracer& tracer, Ray ray, const Level& level, Arrival arr
     const std::optional<BsdfSample> sample = sample_lobes(tracer.rng, at, Lobes::specular);
     if (!sample) break;
     beta *= sample->weight;
-    if (++bounces > kSafeBounces && !survives(tracer.rng, beta, 1)) break;
+    if (++bounces > kSafeBounces && !survives(tracer.rng, beta, survival(beta))) break;
     ray = at.spawn(sample->wi);
     emitters = !maps_.caustics_mapped;
     arrival = {};

@@ -38,7 +38,7 @@ EyeSample trace_path(Tracer& tracer, const LightSampler& lights, Ray ray) {
     if (!sample) break;
     beta *= sample->weight;
     eta *= sample->eta;
-    if (bounces >= kSafeBounces && !survives(tracer.rng, beta, eta)) break;
+    if (bounces >= kSafeBounces && !survives(tracer.rng, beta, survival(beta, eta))) break;
     ray = at.spawn(sample->wi);
     arrival = {receiver(at), sample->pdf_w, 1,
                samples_lights && sample->lobe != Lobes::delta ? 1 : 0};

@@ -18,13 +18,17 @@ inline std::optional<BsdfSample> sample_lobes(Rng& rng, const Scattering& at, Lo
   return at.sample(u_lobe, u, lobes);
 }
 
-/// Russian roulette on a path's throughput; the survivor's is divided by its chance. `eta` is the
-/// index ratio crossed so far: refraction scales radiance, not what the path is worth.
-inline bool survives(Rng& rng, Rgb& beta, float eta) {
-  const float survival = std::min(0.95f, max_component(beta) * eta * eta);
-  if (!(rng.uniform() < survival)) return false;
-  beta *= 1 / survival;
+/// Russian roulette: a survivor's throughput is divided by its `chance`.
+inline bool survives(Rng& rng, Rgb& beta, float chance) {
+  if (!(rng.uniform() < chance)) return false;
+  beta *= 1 / chance;
   return true;
+}
+
+/// The chance of a path with throughput `beta`. `eta` is the index ratio crossed so far: refraction
+/// scales radiance, not what the path is worth.
+inline float survival(Rgb beta, float eta = 1) {
+  return std::min(0.95f, max_component(beta) * eta * eta);
 }
 
 }  // namespace octolux
