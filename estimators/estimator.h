@@ -12,11 +12,13 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "accel/photon_map.h"
 #include "accel/ray_caster.h"
+#include "core/constants.h"
 #include "core/scattering.h"
 
 namespace octolux {
@@ -44,12 +46,14 @@ struct Bandwidth {
   float shrink = 1;              // s_k of the pass, in (0, 1]
 };
 
-/// What a look-up found.
+/// What a look-up found: radiance = sum of pi k(d^2/h^2) f(wo, wi) flux over the photons nearer
+/// than h, over `area`.
 struct Estimate {
   Rgb radiance;         // [W m^-2 sr^-1] leaving at.point towards at.wo by the smooth lobes
   float bandwidth = 0;  // h [m]
-  float area = 0;       // [m^2] the sum of flux was divided by (weights included)
+  float area = 0;       // [m^2]
   int count = 0;        // photons that took part
+  std::span<const Neighbour> photons;  // and others; this thread's next estimate overwrites them
 };
 
 /// Immutable, thread-safe.
@@ -58,6 +62,8 @@ class Estimator {
   virtual ~Estimator() = default;
   virtual Estimate estimate(const GatherPoint& at, const PhotonMap& map,
                             const Bandwidth& bandwidth) const = 0;
+  /// k [1] of Estimate, for s = d^2/h^2 in [0, 1); pi times its integral over s is 1.
+  virtual float k(float /*s*/) const { return kInvPi; }
   /// Does it take only photons that the point sees?
   virtual bool sees_geometry() const { return false; }
 };

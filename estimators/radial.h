@@ -27,7 +27,8 @@ inline Rgb in_range(Rgb c) {
 /// Sum of flux over the disc's area, where f is constant.
 inline Estimate flat_estimate(Rgb flux, int count, const Disc& disc, Rgb reflectance) {
   const Rgb scale = reflectance * (kInvPi * kInvPi);
-  return {in_range(flux * scale * (1 / disc.h2)), std::sqrt(disc.h2), kPi * disc.h2, count};
+  return {in_range(flux * scale * (1 / disc.h2)), std::sqrt(disc.h2), kPi * disc.h2, count,
+          disc.photons};
 }
 
 /// The same for every kernel that does not weigh photons, where f is constant.
@@ -63,7 +64,7 @@ Estimate radial_sum(const GatherPoint& at, const PhotonMap& map, const Disc& dis
     ++count;
   }
   const Rgb scale = lambertian ? *lambertian * kInvPi : Rgb(1);
-  return {in_range(total * scale * inv_h2), std::sqrt(disc.h2), kPi * disc.h2, count};
+  return {in_range(total * scale * inv_h2), std::sqrt(disc.h2), kPi * disc.h2, count, disc.photons};
 }
 
 template <class Kernel>
@@ -78,6 +79,7 @@ class Radial final : public Estimator {
     const Disc disc = find_disc(at, map, bandwidth, neighbours_, buffer, rule_);
     return disc.empty() ? Estimate{} : radial_sum(at, map, disc, kernel_);
   }
+  float k(float s) const override { return kernel_.k(s); }
 
  private:
   int neighbours_;

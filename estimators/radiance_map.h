@@ -20,9 +20,13 @@ class RadianceMap {
   const Bandwidth& bandwidth() const { return bandwidth_; }
 
   /// Radiance [W m^-2 sr^-1] leaving the point through its smooth lobes.
-  Rgb radiance(const GatherPoint& at) const {
-    return empty() ? Rgb(0) : estimator_->estimate(at, photons_, bandwidth_).radiance;
+  Rgb radiance(const GatherPoint& at) const { return estimate(at).radiance; }
+
+  /// What the kernel finds there, and the weight it gives a photon (Estimate).
+  Estimate estimate(const GatherPoint& at) const {
+    return empty() ? Estimate{} : estimator_->estimate(at, photons_, bandwidth_);
   }
+  float k(float s) const { return estimator_->k(s); }
 
   /// The `neighbours` photons nearest to the point, and the bandwidth [m] of their look-up.
   struct Neighbourhood {

@@ -45,6 +45,7 @@ class Region final : public Estimator {
     return estimate;
   }
 
+  float k(float s) const override { return Tapered{}.k(s); }
   bool sees_geometry() const override { return true; }
 
  private:

@@ -15,6 +15,9 @@ constexpr int kMaxRetraces = 16;
 /// Retraced paths end by roulette where a surface scatters less than the inverse of this. A dark
 /// living room then takes 0.7 of the time, with 2 % more noise; without the factor, 7 % more.
 constexpr float kRetraceChance = 1.5f;
+/// Of the points behind retraced rays, the share that looks caustics up. With all of them a dark
+/// living room takes a quarter longer; the noise of a glass sphere's room is the same to 1 %.
+constexpr float kCausticChance = 0.25f;
 
 }  // namespace
 
@@ -64,7 +67,10 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
                              points(tracer, level, Use::lights, light_samples));
 
   const GatherPoint point = gather_point(tracer, at, level.segments);
-  if (maps_.caustics_mapped) out.caustic = maps_.caustic.radiance(point);
+  const float caustic_chance = level.retraces > 0 ? kCausticChance : 1;
+  if (maps_.caustics_mapped && (caustic_chance == 1 || tracer.rng.uniform() < caustic_chance)) {
+    out.caustic = maps_.caustic.radiance(point) / caustic_chance;
+  }
 
   Level next = level;
   Surroundings own;
@@ -93,11 +99,7 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
 /// Radiance leaving `at`, where a gather ray ended.
 Rgb FinalGather::look_up(Tracer& tracer, const Scattering& at, int segments) const {
   const GatherPoint point = gather_point(tracer, at, segments);
-  if (const std::optional<Rgb> reflectance = at.diffuse_reflectance()) {
-    if (const std::optional<Rgb> white = maps_.records.white_radiance(point)) {
-      return *reflectance * *white;
-    }
-  }
+  if (const std::optional<Rgb> shared = maps_.records.radiance(point)) return *shared;
   return maps_.global.radiance(point);
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/bsdf_makers.h"
+#include "core/constants.h"
 #include "core/rng.h"
 #include "estimators/clearance.h"
 
@@ -34,6 +35,7 @@ GatherRecords::GatherRecords(RecordSites sites, const RadianceMap& map, const Ra
       white_(make_diffuse(Color(Rgb(1)))),
       sites_(std::move(sites)),
       white_radiance_(sites_.size() * kDepths),
+      arrivals_(sites_.size() * kDepths),
       reach_(sites_.size()),
       free_(config.must_see ? sites_.size() : 0),
       surroundings_(sites_.size()) {
@@ -80,17 +82,53 @@ bool GatherRecords::sees(std::uint32_t record, const SurfacePoint& point, Vec3 n
                                            {there.position, there.ng, there.error}));
 }
 
-std::optional<Rgb> GatherRecords::white_radiance(const GatherPoint& at) const {
+std::optional<GatherRecords::Serving> GatherRecords::serving(const GatherPoint& at) const {
   if (sites_.size() == 0) return std::nullopt;
   const int depth = depth_index(at.max_segments);
   if (depth < 0 || depth >= kDepths) return std::nullopt;
   const std::optional<std::uint32_t> record = find(at);
   if (!record) return std::nullopt;
   if (config_.must_see && !sees(*record, at.at.point(), at.at.facing_normal())) return std::nullopt;
-  return white_radiance_.get(std::size_t{*record} * kDepths + depth, [&] {
-    return at_record(*record, config_.max_segments - depth,
+  return Serving{*record, depth};
+}
+
+/// Radiance [W m^-2 sr^-1] that a white Lambertian surface would send out.
+Rgb GatherRecords::white_radiance(const Serving& by) const {
+  return white_radiance_.get(by.value(), [&] {
+    return at_record(by.record, config_.max_segments - by.depth,
                      [&](const GatherPoint& there) { return map_->radiance(there); });
   });
+}
+
+const GatherRecords::Arrivals& GatherRecords::arrivals(const Serving& by) const {
+  return arrivals_.get(by.value(), [&] {
+    return at_record(by.record, config_.max_segments - by.depth, [&](const GatherPoint& there) {
+      const Estimate estimate = map_->estimate(there);
+      const float h2 = is_black(estimate.radiance) ? 0 : estimate.bandwidth * estimate.bandwidth;
+      Arrivals found;
+      for (const Neighbour& near : estimate.photons) {
+        if (!(near.distance2 < h2)) continue;
+        const float weight = kPi * map_->k(near.distance2 / h2) / estimate.area;
+        found.push_back(
+            {map_->photons().wi(near.photon), map_->photons().flux(near.photon) * weight});
+      }
+      return found;
+    });
+  });
+}
+
+std::optional<Rgb> GatherRecords::radiance(const GatherPoint& at) const {
+  if (at.at.bsdf().smooth_transmission()) return std::nullopt;
+  const std::optional<Serving> by = serving(at);
+  if (!by) return std::nullopt;
+  if (const std::optional<Rgb> reflectance = at.at.diffuse_reflectance()) {
+    return *reflectance * white_radiance(*by);
+  }
+  Rgb sum(0);
+  for (const Arriving& photon : arrivals(*by)) {
+    sum += at.at.f_flux(photon.wi, Lobes::smooth) * photon.density;
+  }
+  return sum;
 }
 
 const Surroundings* GatherRecords::surroundings(const GatherPoint& at) const {

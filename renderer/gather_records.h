@@ -1,13 +1,15 @@
 // What gather rays share within a pass (Christensen, "Faster photon map global illumination",
 // Journal of Graphics Tools 4(3), 1999): of the many that end near a record (record_sites.h) only
-// the first pays for a look-up of irradiance, and of the points they leave from only the first
-// pays for a guide. Both are made when they are asked for first, so places nobody looks at cost
-// nothing.
+// the first pays for a look-up, and of the points they leave from only the first pays for a guide.
+// Diffuse surfaces share irradiance; to others a record lends the photons it found, whose flux each
+// scatters by its own BSDF. All are made when they are asked for first, so places nobody looks at
+// cost nothing.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "core/bsdf.h"
 #include "estimators/radiance_map.h"
@@ -37,27 +39,42 @@ struct RecordConfig {
 class GatherRecords {
   /// Where paths may have few segments, irradiance depends on how many are left to the photons.
   static constexpr int kDepths = 4;
+  /// A photon that a record found.
+  struct Arriving {
+    Vec3 wi;
+    Rgb density;  // [W m^-2] of flux: its share of the estimate
+  };
+  using Arrivals = std::vector<Arriving>;
 
  public:
-  /// Without surroundings, which few records are asked for.
-  static constexpr double kBytesPerRecord = RecordSites::kBytesPerSite +
-                                            kDepths * LazyValues<Rgb>::kBytesPerValue +
-                                            2 * LazyValues<float>::kBytesPerValue + sizeof(void*);
+  /// Without surroundings and arrivals, which few records are asked for.
+  static constexpr double kBytesPerRecord =
+      RecordSites::kBytesPerSite + kDepths * LazyValues<Rgb>::kBytesPerValue +
+      2 * LazyValues<float>::kBytesPerValue + (1 + kDepths) * sizeof(void*);
 
   GatherRecords() = default;
   /// The map and the caster must outlive the records and stay where they are.
   GatherRecords(RecordSites sites, const RadianceMap& map, const RayCaster& caster,
                 const RecordConfig& config);
 
-  /// Radiance [W m^-2 sr^-1] that a white Lambertian surface would send out at the point; empty if
-  /// no record serves it.
-  std::optional<Rgb> white_radiance(const GatherPoint& at) const;
+  /// Radiance [W m^-2 sr^-1] leaving the point through its smooth lobes; empty if no record serves
+  /// it.
+  std::optional<Rgb> radiance(const GatherPoint& at) const;
   /// What a record near the point found around itself; nullptr if none serves it.
   const Surroundings* surroundings(const GatherPoint& at) const;
 
  private:
+  /// A record, and which of its values counts the photons asked for.
+  struct Serving {
+    std::uint32_t record = 0;
+    int depth = 0;
+    std::size_t value() const { return std::size_t{record} * kDepths + depth; }
+  };
   int depth_index(int max_segments) const;
   std::optional<std::uint32_t> find(const GatherPoint& at) const;
+  std::optional<Serving> serving(const GatherPoint& at) const;
+  Rgb white_radiance(const Serving& by) const;
+  const Arrivals& arrivals(const Serving& by) const;
   bool sees(std::uint32_t record, const SurfacePoint& point, Vec3 normal) const;
   template <class Use>
   auto at_record(std::uint32_t record, int max_segments, const Use& use) const;
@@ -69,6 +86,7 @@ class GatherRecords {
   std::unique_ptr<Bsdf> white_;
   RecordSites sites_;
   LazyValues<Rgb> white_radiance_;  // kDepths per record
+  LazyObjects<Arrivals> arrivals_;  // kDepths per record
   LazyValues<float> reach_;         // [m] as RecordSites has it
   LazyValues<float> free_;          // [m] around a record nothing is in the way
   LazyObjects<Surroundings> surroundings_;
