@@ -17,7 +17,7 @@ void require(bool ok, const std::string& message) {
 // Chosen by error at equal time, tools/bench/README.md: more eye samples average less noise of
 // photons and fewer passes shrink the bandwidth less, so scenes with few photons lose by more.
 constexpr std::int64_t kEyeSamplesPerPhoton = 3, kMostEyeSamples = 4;
-constexpr double kGatheredRadius = 2, kShownRadius = 10;  // in mean n-photon radii
+constexpr double kGatheredRadius = 10, kShownRadius = 10;  // in mean n-photon radii
 
 /// At most `wanted`, and a divisor of `samples` if that many are asked for, so that whole passes
 /// are exactly so many.

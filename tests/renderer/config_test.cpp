@@ -33,9 +33,9 @@ TEST(AutomaticSettings, EyeSamplesAreThreeAPhotonButFourAPixelAtMost) {
   EXPECT_EQ(eye_samples(128 * 96, config), 1);
 }
 
-TEST(AutomaticSettings, LookUpsReachFartherWhereTheMapIsShown) {
+TEST(AutomaticSettings, LookUpsReachForTenMeanRadii) {
   RenderConfig config;
-  EXPECT_EQ(resolved(config, 100).photons.global_radius, 2);
+  EXPECT_EQ(resolved(config, 100).photons.global_radius, 10);
   config.eye.gather = false;
   EXPECT_EQ(resolved(config, 100).photons.global_radius, 10);
 }
