@@ -17,7 +17,7 @@ void require(bool ok, const std::string& message) {
 // Chosen by error at equal time, tools/bench/README.md: more eye samples average less noise of
 // photons and fewer passes shrink the bandwidth less, so scenes with few photons lose by more.
 constexpr std::int64_t kEyeSamplesPerPhoton = 3, kMostEyeSamples = 4;
-constexpr double kGatheredRadius = 10, kShownRadius = 10;  // in mean n-photon radii
+constexpr double kRadius = 10;  // in mean n-photon radii
 
 /// At most `wanted`, and a divisor of `samples` if that many are asked for, so that whole passes
 /// are exactly so many.
@@ -32,9 +32,7 @@ RenderConfig resolved(RenderConfig config, std::int64_t pixels) {
   const std::int64_t automatic = std::max<std::int64_t>(50'000, pixels / 2);
   if (config.photons.global < 0) config.photons.global = automatic;
   if (config.photons.caustic < 0) config.photons.caustic = automatic;
-  if (config.photons.global_radius < 0) {
-    config.photons.global_radius = config.eye.gather ? kGatheredRadius : kShownRadius;
-  }
+  if (config.photons.global_radius < 0) config.photons.global_radius = kRadius;
   if (config.eye.samples_per_pass < 0) {
     const bool photons = config.integrator == Integrator::photon;
     const std::int64_t wanted = photons ? kEyeSamplesPerPhoton * config.photons.global / pixels : 1;

@@ -82,10 +82,7 @@ void visit(Config& config, Field&& field) {
 /// every photon path: on a small film the photons would else take most of the time. The number
 /// divides stop.samples, so that exactly those are taken.
 ///
-/// Look-ups of the global map reach for 2 mean radii where they are gathered over: in the corner of
-/// a room, a quarter of the disc, that is n photons still. In dim places few photons are noise that
-/// averages out, many would come from far and leak. Where the map itself is shown they reach for
-/// 10, so that dim places are not left without photons.
+/// Look-ups of the global map reach for 10 mean radii.
 RenderConfig resolved(RenderConfig config, std::int64_t pixels);
 
 /// Throws Error if a value is out of its range.
