@@ -17,7 +17,6 @@ void require(bool ok, const std::string& message) {
 // Chosen by error at equal time, tools/bench/README.md: more eye samples average less noise of
 // photons and fewer passes shrink the bandwidth less, so scenes with few photons lose by more.
 constexpr std::int64_t kEyeSamplesPerPhoton = 3, kMostEyeSamples = 4;
-constexpr double kRadius = 10;  // in mean n-photon radii
 
 /// At most `wanted`, and a divisor of `samples` if that many are asked for, so that whole passes
 /// are exactly so many.
@@ -32,7 +31,6 @@ RenderConfig resolved(RenderConfig config, std::int64_t pixels) {
   const std::int64_t automatic = std::max<std::int64_t>(50'000, pixels / 2);
   if (config.photons.global < 0) config.photons.global = automatic;
   if (config.photons.caustic < 0) config.photons.caustic = automatic;
-  if (config.photons.global_radius < 0) config.photons.global_radius = kRadius;
   if (config.eye.samples_per_pass < 0) {
     const bool photons = config.integrator == Integrator::photon;
     const std::int64_t wanted = photons ? kEyeSamplesPerPhoton * config.photons.global / pixels : 1;
@@ -46,8 +44,7 @@ void check(const RenderConfig& config) {
   require(config.photons.global >= 1 || config.photons.global == -1,
           "photons.global must be at least 1, or -1 for automatic");
   require(config.photons.caustic >= -1, "photons.caustic must be 0 or more, or -1 for automatic");
-  require(config.photons.global_radius > 0 || config.photons.global_radius == -1,
-          "photons.global_radius must be above 0, or -1 for automatic");
+  require(config.photons.global_radius > 0, "photons.global_radius must be above 0");
   require(config.photons.caustic_radius > 0, "photons.caustic_radius must be above 0");
   require(config.photons.alpha > 0 && config.photons.alpha <= 1, "photons.alpha must be in (0, 1]");
   require(config.eye.gather_rays >= 1, "eye.gather_rays must be at least 1");

@@ -14,7 +14,7 @@ struct PhotonConfig {
   std::int64_t global =
       -1;  // paths per pass for the global map; -1: half the pixels, at least 50 000
   std::int64_t caustic = -1;  // the same for the caustic map; 0: none, gather rays find caustics
-  double global_radius = -1;  // look-up limit, in mean n-photon radii; -1: see resolved()
+  double global_radius = 10;  // look-up limit, in units of the mean n-photon radius
   double caustic_radius = 2;  // the same for the caustic map
   double alpha = 2.0 / 3;     // Knaus & Zwicker's: how fast the bandwidth shrinks; 1: never
   bool learn = true;          // aim photons at what gather rays will read, where that pays
@@ -81,8 +81,6 @@ void visit(Config& config, Field&& field) {
 /// A pass of photon mapping takes up to 4 eye samples per pixel, so that there are about three for
 /// every photon path: on a small film the photons would else take most of the time. The number
 /// divides stop.samples, so that exactly those are taken.
-///
-/// Look-ups of the global map reach for 10 mean radii.
 RenderConfig resolved(RenderConfig config, std::int64_t pixels);
 
 /// Throws Error if a value is out of its range.

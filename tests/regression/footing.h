@@ -34,9 +34,7 @@ inline float measured_bandwidth(const PhotonMap& map, const Footing& at, float l
 /// pass of one of the maps.
 inline Footings footings(const Scene& scene, const RenderConfig& config, PhotonKind kind) {
   const bool global = kind == PhotonKind::global;
-  const FilmSize& film = scene.film;
-  const PhotonConfig photons =
-      resolved(config, std::int64_t{film.crop_width} * film.crop_height).photons;
+  const PhotonConfig& photons = config.photons;
   const PhotonMap map(trace_photons(scene, LightSampler(scene), kind,
                                     global ? photons.global : photons.caustic, {1, 0})
                           .photons);
@@ -44,6 +42,7 @@ inline Footings footings(const Scene& scene, const RenderConfig& config, PhotonK
   const float limit =
       look_up_bandwidth(scene, map.size(), config.estimator.neighbours, radius, photons.alpha, 0)
           .max_radius;
+  const FilmSize& film = scene.film;
   const float tangent = std::tan(scene.camera_config.fov_x_degrees * kPi / 360);
   Footings out;
   for (int i = 0; i < film.crop_width * film.crop_height; ++i) {

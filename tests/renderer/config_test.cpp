@@ -33,13 +33,6 @@ TEST(AutomaticSettings, EyeSamplesAreThreeAPhotonButFourAPixelAtMost) {
   EXPECT_EQ(eye_samples(128 * 96, config), 1);
 }
 
-TEST(AutomaticSettings, LookUpsReachForTenMeanRadii) {
-  RenderConfig config;
-  EXPECT_EQ(resolved(config, 100).photons.global_radius, 10);
-  config.eye.gather = false;
-  EXPECT_EQ(resolved(config, 100).photons.global_radius, 10);
-}
-
 TEST(AutomaticSettings, PathTracingTakesOneSampleAPass) {
   RenderConfig config;
   config.integrator = Integrator::path;
@@ -50,12 +43,10 @@ TEST(AutomaticSettings, WhatIsSetStays) {
   RenderConfig config;
   config.photons.global = 7;
   config.photons.caustic = 0;
-  config.photons.global_radius = 3.5;
   config.eye.samples_per_pass = 9;
   const RenderConfig same = resolved(config, 100);
   EXPECT_EQ(same.photons.global, 7);
   EXPECT_EQ(same.photons.caustic, 0);
-  EXPECT_EQ(same.photons.global_radius, 3.5);
   EXPECT_EQ(same.eye.samples_per_pass, 9);
 }
 

@@ -46,8 +46,7 @@ TEST_P(Furnace, FinalGatherWithinOnePercentEvenInCorners) {
     for (const std::string& view : kViews) {
       const auto scene = scene_from(furnace(shape, rho, view));
       resize_film(*scene, 14, 14);
-      const Running seen =
-          pass_means(*scene, rho < 0.9 ? photon_config(16, 50'000) : photon_config(20, 40'000));
+      const Running seen = pass_means(*scene, photon_config(16, rho < 0.9 ? 50'000 : 40'000));
       EXPECT_NEAR(seen.mean() * (1 - rho), 1, 0.01) << shape << view;
       EXPECT_LT(seen.standard_error() * (1 - rho), 0.005) << shape << view;
     }
