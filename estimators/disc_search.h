@@ -3,6 +3,7 @@
 #pragma once
 
 #include "estimators/estimator.h"
+#include "estimators/seen_photons.h"
 
 namespace octolux {
 
@@ -15,10 +16,14 @@ struct Disc {
   bool empty() const { return photons.empty() || h2 == 0; }
 };
 
-/// What bounds a disc of n photons: the (n+1)th, or, as published, the nth, which counts as well.
-enum class BandwidthRule { next, last };
-inline BandwidthRule bandwidth_rule(const EstimatorConfig& config) {
-  return config.correction ? BandwidthRule::next : BandwidthRule::last;
+/// Which photons make a disc.
+struct DiscRule {
+  int neighbours = 20;  // n
+  bool next = true;     // the (n+1)th bounds the disc; or, as published, the nth, which counts, too
+  bool seen = false;    // of these, those that the point sees (seen_photons.h)
+};
+inline DiscRule disc_rule(const EstimatorConfig& config) {
+  return {config.neighbours, config.correction, config.correction && config.seen};
 }
 
 /// A bandwidth whose square is no normal number has no density: every photon is at the query.
@@ -26,20 +31,20 @@ inline float usable_bandwidth2(float h2) {
   return h2 >= std::numeric_limits<float>::min() && std::isfinite(h2) ? h2 : 0;
 }
 
-/// The disc of `neighbours` photons around the point. The span points into `buffer`.
+/// The disc of n photons around the point. The span points into `buffer`, or to memory of this
+/// thread that the next call overwrites.
 inline Disc find_disc(const GatherPoint& at, const PhotonMap& map, const Bandwidth& bandwidth,
-                      int neighbours, NeighbourBuffer& buffer,
-                      BandwidthRule rule = BandwidthRule::next) {
-  const bool next = rule == BandwidthRule::next;
-  const std::size_t wanted = static_cast<std::size_t>(neighbours) + (next ? 1 : 0);
+                      const DiscRule& rule, NeighbourBuffer& buffer) {
+  const std::size_t wanted = static_cast<std::size_t>(rule.neighbours) + (rule.next ? 1 : 0);
   std::span<const Neighbour> found = map.nearest(photon_query(at, bandwidth), wanted, buffer);
   float r2 = bandwidth.max_radius * bandwidth.max_radius;
   if (found.size() == wanted || !std::isfinite(r2)) {
     if (found.empty()) return {};
     r2 = found.back().distance2;
-    if (next) found = found.first(found.size() - 1);
-    if (!next && r2 > 0) r2 = std::nextafter(r2, kInfinity);  // so that the last one is nearer
+    if (rule.next) found = found.first(found.size() - 1);
+    if (!rule.next && r2 > 0) r2 = std::nextafter(r2, kInfinity);  // so that the last one is nearer
   }
+  if (rule.seen) found = seen_photons(at, map, found, std::sqrt(r2));
   return {found, usable_bandwidth2(r2 * (bandwidth.shrink * bandwidth.shrink)), r2};
 }
 

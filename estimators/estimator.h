@@ -30,6 +30,7 @@ struct EstimatorConfig {
   std::string octants = "auto";  // OctoBoxes: one, eight (one per octant), auto (as photons allow)
   bool correction = true;        // false: as published, with the bias of finite photon counts
   int feelers = 8;               // geometry feelers per look-up: 8 or 4
+  bool seen = false;             // with correction: count only photons that the point sees
 };
 
 /// Where radiance is wanted.

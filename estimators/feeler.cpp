@@ -65,7 +65,7 @@ class FeelerFilter final : public Estimator {
     double area = found.whole() ? disc_area : found.region.integral(h, 0);
     const bool in_wall = !(area > kDegenerate * disc_area);
     if (in_wall) {
-      found.disc = find_disc(at, map, bandwidth, config_.neighbours, buffer);
+      found.disc = find_disc(at, map, bandwidth, {config_.neighbours}, buffer);
       if (found.disc.empty()) return {};
       area = std::numbers::pi * found.disc.h2;
     }
@@ -119,7 +119,7 @@ class FeelerFilter final : public Estimator {
                      const Bandwidth& bandwidth) const {
     thread_local NeighbourBuffer buffer;
     thread_local std::vector<Neighbour> inside;
-    Disc disc = find_disc(at, map, bandwidth, config_.neighbours, buffer, bandwidth_rule(config_));
+    Disc disc = find_disc(at, map, bandwidth, disc_rule(config_), buffer);
     if (disc.empty()) return {};
     inside.clear();
     const std::optional<PhotonRegion> box = feelers(at, std::sqrt(disc.h2));

@@ -25,8 +25,7 @@ class Hull final : public Estimator {
   Estimate estimate(const GatherPoint& at, const PhotonMap& map,
                     const Bandwidth& bandwidth) const override {
     thread_local NeighbourBuffer buffer;
-    const Disc disc =
-        find_disc(at, map, bandwidth, config_.neighbours, buffer, bandwidth_rule(config_));
+    const Disc disc = find_disc(at, map, bandwidth, disc_rule(config_), buffer);
     if (disc.empty()) return {};
     Estimate estimate = radial_sum(at, map, disc, FlatKernel{});
     const double gain =

@@ -27,8 +27,7 @@ class OctoBox final : public Estimator {
   Estimate estimate(const GatherPoint& at, const PhotonMap& map,
                     const Bandwidth& bandwidth) const override {
     thread_local NeighbourBuffer buffer;
-    const Disc disc =
-        find_disc(at, map, bandwidth, config_.neighbours, buffer, bandwidth_rule(config_));
+    const Disc disc = find_disc(at, map, bandwidth, disc_rule(config_), buffer);
     if (disc.empty()) return {};
     return config_.correction ? corrected(at, map, disc) : published(at, map, disc);
   }

@@ -71,19 +71,18 @@ template <class Kernel>
 class Radial final : public Estimator {
  public:
   Radial(const EstimatorConfig& config, Kernel kernel)
-      : neighbours_(config.neighbours), rule_(bandwidth_rule(config)), kernel_(kernel) {}
+      : rule_(disc_rule(config)), kernel_(kernel) {}
 
   Estimate estimate(const GatherPoint& at, const PhotonMap& map,
                     const Bandwidth& bandwidth) const override {
     thread_local NeighbourBuffer buffer;
-    const Disc disc = find_disc(at, map, bandwidth, neighbours_, buffer, rule_);
+    const Disc disc = find_disc(at, map, bandwidth, rule_, buffer);
     return disc.empty() ? Estimate{} : radial_sum(at, map, disc, kernel_);
   }
   float k(float s) const override { return kernel_.k(s); }
 
  private:
-  int neighbours_;
-  BandwidthRule rule_;
+  DiscRule rule_;
   Kernel kernel_;
 };
 

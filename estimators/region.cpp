@@ -36,7 +36,7 @@ class Region final : public Estimator {
     if (found.disc.empty()) return {};
     const double share = found.whole() ? 1 : share_of_disc(found);
     if (!(share > kNothing)) {
-      const Disc disc = find_disc(at, map, bandwidth, config_.neighbours, buffer);
+      const Disc disc = find_disc(at, map, bandwidth, {config_.neighbours}, buffer);
       return disc.empty() ? Estimate{} : radial_sum(at, map, disc, Tapered{});
     }
     Estimate estimate = radial_sum(at, map, found.disc, Tapered{});

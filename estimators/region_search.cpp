@@ -29,9 +29,11 @@ float first_reach(const PhotonMap& map, const PhotonQuery& query, std::size_t wa
   return reach > 0 ? std::min(reach, limit) : limit;
 }
 
-/// So that the region is known as far as `reach`.
-float feeler_length(float reach, int feelers) {
-  return reach / std::cos(kPi / static_cast<float>(feelers));
+/// So that the region is known as far as `reach`. Where that is as far as photons may count no
+/// second look follows: there feelers go farther, so that one more of them meets a wall that ends.
+float feeler_length(float reach, float limit, int feelers) {
+  const float known = reach < limit ? reach : kWallMargin * limit;
+  return known / std::cos(kPi / static_cast<float>(feelers));
 }
 
 }  // namespace
@@ -50,7 +52,7 @@ RegionDisc find_in_region(const GatherPoint& at, const PhotonMap& map, const Ban
                           const RegionConfig& config, NeighbourBuffer& buffer) {
   RegionDisc result{{}, FreeRegion(at.at.facing_normal())};
   if (at.caster == nullptr) {
-    result.disc = find_disc(at, map, bandwidth, config.neighbours, buffer);
+    result.disc = find_disc(at, map, bandwidth, {config.neighbours}, buffer);
     return result;
   }
   const std::size_t wanted = static_cast<std::size_t>(config.neighbours) + 1;
@@ -63,14 +65,14 @@ RegionDisc find_in_region(const GatherPoint& at, const PhotonMap& map, const Ban
   for (bool obstructed = false;; reach = std::min(2 * reach, limit)) {
     std::span<const Neighbour> found;
     if (!obstructed) {
-      feelers.length = feeler_length(reach, config.feelers);
+      feelers.length = feeler_length(reach, limit, config.feelers);
       query.max_radius = free_distance(*at.caster, feelers, reach, reach * kWorthLooking);
       obstructed = query.max_radius < reach;
       if (query.max_radius > 0) found = map.nearest(query, wanted, buffer);
       if (obstructed) reach = std::min(reach * kWallMargin, limit);
     }
     if (obstructed && found.size() < wanted) {
-      feelers.length = feeler_length(reach, config.feelers);
+      feelers.length = feeler_length(reach, limit, config.feelers);
       result.region = FreeRegion(*at.caster, feelers);
       query.region = &result.region.photons();
       query.max_radius = std::min(reach, result.region.extent());

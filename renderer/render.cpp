@@ -31,13 +31,17 @@ class Stopwatch {
   double last_ = 0;
 };
 
+/// The kernel of a render's maps.
+std::unique_ptr<Estimator> kernel_of(const RenderConfig& config) {
+  EstimatorConfig kernel = config.estimator;
+  kernel.seen = config.eye.gather && config.eye.seen;
+  return make_estimator(kernel);
+}
+
 /// What all passes of a render share.
 struct Job {
   Job(const Scene& scene_, const RenderConfig& config_)
-      : scene(scene_),
-        config(config_),
-        lights(scene),
-        estimator(make_estimator(config.estimator)) {}
+      : scene(scene_), config(config_), lights(scene), estimator(kernel_of(config)) {}
 
   const Scene& scene;
   const RenderConfig& config;

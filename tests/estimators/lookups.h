@@ -27,6 +27,8 @@ inline std::vector<EstimatorConfig> all_configs() {
         config.octants = octants;
         config.neighbours = 50;
         configs.push_back(config);
+        config.seen = true;
+        if (correction && name != "feeler" && name != "region") configs.push_back(config);
       }
     }
   }
@@ -34,8 +36,8 @@ inline std::vector<EstimatorConfig> all_configs() {
 }
 
 inline std::string describe(const EstimatorConfig& config) {
-  return config.kernel + ":" + config.octants + (config.correction ? "" : ":published") + " n " +
-         std::to_string(config.neighbours);
+  return config.kernel + ":" + config.octants + (config.correction ? "" : ":published") +
+         (config.seen ? ":seen" : "") + " n " + std::to_string(config.neighbours);
 }
 
 struct Lookup {

@@ -1,7 +1,8 @@
 // Light behind a thin wall, from the scene file to the film: in scenes/thin-wall no light reaches
 // the right room, and with the kernels that look at the geometry no pixel of it differs from black
 // by a single bit, whether the map is shown directly or gathered, and whether gather rays share
-// look-ups or not. The other kernels do leak there, or the test would show nothing.
+// look-ups or not. The other kernels do leak there, or the test would show nothing, unless gathered
+// look-ups count only what they see.
 #include <gtest/gtest.h>
 
 #include "tests/renderer/renders.h"
@@ -19,13 +20,14 @@ std::unique_ptr<Scene> dark_room(const char* thickness, int width) {
 }
 
 /// Bandwidths of some 20 cm, in every pass.
-RenderConfig wide_look_ups(const char* kernel, bool gather, double reuse, int passes) {
+RenderConfig wide_look_ups(const char* kernel, bool gather, double reuse, int passes, bool seen) {
   RenderConfig config = photon_config(passes, 10'000);
   config.photons.alpha = 1;
   config.estimator.kernel = kernel;
   config.estimator.neighbours = 100;
   config.eye.gather = gather;
   config.eye.reuse = reuse;
+  config.eye.seen = seen;
   return config;
 }
 
@@ -49,8 +51,8 @@ class ThinWall : public testing::TestWithParam<Mode> {
     int count = 0;
     for (const char* thickness : {"0.1", "0.02", "0.001"}) {
       const auto room = dark_room(thickness, width);
-      count +=
-          lit_pixels(*room, wide_look_ups(kernel, GetParam().gather, GetParam().reuse, passes));
+      const Mode& mode = GetParam();
+      count += lit_pixels(*room, wide_look_ups(kernel, mode.gather, mode.reuse, passes, false));
     }
     return count;
   }
@@ -64,6 +66,15 @@ TEST_P(ThinWall, IsBlackToTheLastBitWithFeelers) {
 
 TEST_P(ThinWall, LeaksWithoutFeelers) {
   for (const char* kernel : {"cone", "octobox"}) EXPECT_GT(lit(kernel, 64, 1), 0) << kernel;
+}
+
+TEST(ThinWallSeen, IsBlackToTheLastBitWithEveryKernel) {
+  for (const char* thickness : {"0.1", "0.02", "0.001"}) {
+    const auto room = dark_room(thickness, 64);
+    for (const std::string& kernel : kernel_names()) {
+      EXPECT_EQ(lit_pixels(*room, wide_look_ups(kernel.c_str(), true, 0, 1, true)), 0) << kernel;
+    }
+  }
 }
 
 // A million looks at the map by each kernel, from the eye or by eight gather rays for each sample.

@@ -1,0 +1,110 @@
+// Kernels that know photons alone, told which of them the query sees: nothing from behind a wall,
+// everything of an open or curved surface.
+#include "estimators/seen_photons.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/estimators/geometry_kernels.h"
+
+namespace octolux::test {
+namespace {
+
+constexpr const char* kBlindKernels[] = {"disc", "cone", "octobox", "hull"};
+
+std::unique_ptr<Estimator> kernel(const char* name, bool seen, bool correction = true) {
+  EstimatorConfig config;
+  config.kernel = name;
+  config.correction = correction;
+  config.seen = seen;
+  return make_estimator(config);
+}
+
+TEST(SeenPhotons, NoneFromBehindAWallAtAnyScale) {
+  for (const auto& [scale, shift] : {std::pair{1e-4f, 0.0f}, {1.0f, 0.0f}, {1e4f, 1e5f}}) {
+    Placement placement;
+    placement.scale = scale;
+    placement.shift = {shift, -shift, shift};
+    Room room(placement);
+    room.floor(-20, -20, 20, 20);
+    room.wall({-20, 0}, {20, 0});
+    Rng rng = rng_of(41);
+    const PhotonMap map =
+        floor_photons(room, rng, 8000, 4, [](Vec2 p) { return p.y < 0 ? 1.0f : 0.0f; });
+    for (const char* name : kBlindKernels) {
+      for (int i = 0; i < 200; ++i) {
+        const FloorLookUp look(room, {rng.uniform() - 0.5f, 0.002f + 0.2f * rng.uniform()});
+        EXPECT_GT(look(*kernel(name, false), map, 0).count, 0) << name;
+        EXPECT_EQ(look(*kernel(name, true), map, 0).count, 0) << name << ", scale " << scale;
+      }
+    }
+  }
+}
+
+TEST(SeenPhotons, AllOnAnOpenFloor) {
+  Room room;
+  room.floor(-20, -20, 20, 20);
+  Rng rng = rng_of(42);
+  const PhotonMap map = floor_photons(room, rng, 8000, 4, [](Vec2) { return 1.0f; });
+  for (const char* name : kBlindKernels) {
+    const FloorLookUp look(room, {0.3f, 0.1f});
+    EXPECT_EQ(look(*kernel(name, true), map, 0).radiance.g,
+              look(*kernel(name, false), map, 0).radiance.g);
+  }
+}
+
+TEST(SeenPhotons, PublishedFormsStayAsTheyAre) {
+  Room room;
+  room.floor(-20, -20, 20, 20);
+  room.wall({-20, 0}, {20, 0});
+  Rng rng = rng_of(43);
+  const PhotonMap map = floor_photons(room, rng, 8000, 4, [](Vec2) { return 1.0f; });
+  for (const char* name : kBlindKernels) {
+    const FloorLookUp look(room, {0.3f, 0.05f});
+    EXPECT_EQ(look(*kernel(name, true, false), map, 0).radiance.g,
+              look(*kernel(name, false, false), map, 0).radiance.g);
+  }
+}
+
+/// Half a cylinder of radius 2 about the x axis, its lowest (bend 1) or highest (-1) line at z = 0.
+void add_half_cylinder(Room& room, int facets, float bend) {
+  for (int i = 0; i < facets; ++i) {
+    const auto at = [&](float x, int k) {
+      const float angle = kPi * static_cast<float>(k) / static_cast<float>(facets);
+      return Vec3{x, -2 * std::cos(angle), 2 * bend * (1 - std::sin(angle))};
+    };
+    room.quad(at(-20, i), at(20, i), at(20, i + 1), at(-20, i + 1));
+  }
+}
+
+TEST(SeenPhotons, ACurvedSurfaceIsNoWall) {
+  constexpr float kRadius = 0.8f;
+  for (const int facets : {16, 64, 1024}) {
+    for (const float bend : {1.0f, -1.0f}) {
+      Room room;
+      add_half_cylinder(room, facets, bend);
+      Rng rng = rng_of(44);
+      std::vector<Photon> photons;
+      for (int i = 0; i < 400; ++i) {
+        const Vec2 p{kRadius * (2 * rng.uniform() - 1), kRadius * (2 * rng.uniform() - 1)};
+        Photon photon;
+        const SurfacePoint on = room.look_down(p, 5).value();
+        photon.position = on.position;
+        photon.normal = photon.wi = on.ng.z < 0 ? -on.ng : on.ng;
+        photon.flux = Rgb(1);
+        photons.push_back(photon);
+      }
+      const PhotonMap map(std::move(photons));
+      for (const char* name : kBlindKernels) {
+        const FloorLookUp look(room, {0.01f, 0.02f});
+        const Bandwidth bandwidth{.max_radius = kRadius};
+        const int all = look(*kernel(name, false), map, 0, bandwidth).count;
+        EXPECT_GT(all, 15);
+        EXPECT_EQ(look(*kernel(name, true), map, 0, bandwidth).count, all)
+            << name << ", " << facets << " facets, bend " << bend;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace octolux::test
