@@ -83,6 +83,16 @@ TEST_P(ThinWallSlow, IsBlackToTheLastBitWithFeelers) {
   for (const char* kernel : {"feeler", "region"}) EXPECT_EQ(lit(kernel, 256, passes), 0) << kernel;
 }
 
+// The partition ends 5 cm in front of the floor: of feelers no longer than the look-up may reach
+// some passed beside it, and none met it.
+TEST(ThinWallShortLookUpsSlow, AreBlackToTheLastBit) {
+  for (const char* thickness : {"0.02", "0.001"}) {
+    RenderConfig config = wide_look_ups("feeler", true, 0, 3, false);
+    config.photons.global_radius = 2;
+    EXPECT_EQ(lit_pixels(*dark_room(thickness, 256), config), 0) << thickness;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Modes, ThinWall, testing::ValuesIn(kModes),
                          [](const testing::TestParamInfo<Mode>& param) {
                            return param.param.name;
