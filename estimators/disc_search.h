@@ -11,8 +11,9 @@ namespace octolux {
 /// distance2 >= h2 do not count.
 struct Disc {
   std::span<const Neighbour> photons;
-  float h2 = 0;  // [m^2] square of the bandwidth
-  float r2 = 0;  // [m^2] the same without shrinking: all photons are nearer
+  float h2 = 0;      // [m^2] square of the bandwidth
+  float r2 = 0;      // [m^2] the same without shrinking: all photons are nearer
+  bool cut = false;  // a wall cuts it: photons behind it are left out
   bool empty() const { return photons.empty() || h2 == 0; }
 };
 
@@ -44,8 +45,10 @@ inline Disc find_disc(const GatherPoint& at, const PhotonMap& map, const Bandwid
     if (rule.next) found = found.first(found.size() - 1);
     if (!rule.next && r2 > 0) r2 = std::nextafter(r2, kInfinity);  // so that the last one is nearer
   }
+  const std::size_t all = found.size();
   if (rule.seen) found = seen_photons(at, map, found, std::sqrt(r2));
-  return {found, usable_bandwidth2(r2 * (bandwidth.shrink * bandwidth.shrink)), r2};
+  const float h2 = usable_bandwidth2(r2 * (bandwidth.shrink * bandwidth.shrink));
+  return {found, h2, r2, found.size() < all};
 }
 
 }  // namespace octolux

@@ -38,7 +38,8 @@ class Hull final : public Estimator {
  private:
   /// Area of the disc by that of the hull.
   double corrected(const GatherPoint& at, const PhotonMap& map, const Disc& disc, int count) const {
-    const double share = box_share(OctantUse::one, static_cast<int>(disc.photons.size()));
+    const auto n = static_cast<int>(disc.photons.size());
+    const double share = disc.cut ? box_share_of_cut(n) : box_share(OctantUse::one, n);
     if (share == 0 || count == 0) return 1;
     thread_local PlanePoints photons;
     project_photons(at, map, disc, photons);

@@ -4,6 +4,7 @@
 //
 // At few photons a box is too noisy, and hands over to the disc: 1/area is a mean of both, with
 // weights that depend on the number of photons alone, so that it stays unbiased on an open plane.
+// Where a wall is seen to cut the disc, the disc is too dark, and hands back earlier.
 #include <memory>
 
 #include "estimators/octobox_fit.h"
@@ -35,7 +36,7 @@ class OctoBox final : public Estimator {
  private:
   Estimate corrected(const GatherPoint& at, const PhotonMap& map, const Disc& disc) const {
     const OctoBoxCorrection& correction = table_[disc.photons.size()];
-    if (correction.share == 0) return radial_sum(at, map, disc, FlatKernel{});
+    if (share(correction, disc) == 0) return radial_sum(at, map, disc, FlatKernel{});
     thread_local PlanePoints points;
     const Estimate flat = sum_and_project(at, map, disc, points);
     return flat.count == 0 ? flat : raised(flat, gain(points, disc, correction, flat.count));
@@ -49,8 +50,12 @@ class OctoBox final : public Estimator {
     const float disc_area = kPi * radius * radius;
     if (!(fit.area > kDegenerate * disc_area)) return 1;
     const float density = fit.count / (fit.area * correction.ratio);
-    return 1 - correction.share +
-           correction.share * density * disc_area / static_cast<float>(count);
+    const float box = share(correction, disc);
+    return 1 - box + box * density * disc_area / static_cast<float>(count);
+  }
+
+  static float share(const OctoBoxCorrection& correction, const Disc& disc) {
+    return disc.cut ? correction.cut_share : correction.share;
   }
 
   Estimate published(const GatherPoint& at, const PhotonMap& map, const Disc& disc) const {

@@ -11,6 +11,13 @@ constexpr OctoBoxTableEntry kTable[] = {
 #include "estimators/octobox_table.inc"
 };
 
+/// From 0 at three photons to 1 at `enough`.
+float share_of_enough(int photons, float enough) {
+  const float none = 3;
+  const float t = std::clamp((static_cast<float>(photons) - none) / (enough - none), 0.0f, 1.0f);
+  return t * t * (3 - 2 * t);
+}
+
 }  // namespace
 
 std::span<const OctoBoxTableEntry> octobox_table() { return kTable; }
@@ -33,16 +40,15 @@ double octobox_ratio(OctantUse use, int photons) {
 }
 
 float box_share(OctantUse use, int photons) {
-  const float none = 3;
-  const float all = use == OctantUse::eight ? 54.0f : 23.0f;
-  const float t = std::clamp((static_cast<float>(photons) - none) / (all - none), 0.0f, 1.0f);
-  return t * t * (3 - 2 * t);
+  return share_of_enough(photons, use == OctantUse::eight ? 54 : 23);
 }
+
+float box_share_of_cut(int photons) { return share_of_enough(photons, 18); }
 
 std::vector<OctoBoxCorrection> make_octobox_corrections(OctantUse use, int photons) {
   std::vector<OctoBoxCorrection> table(static_cast<std::size_t>(photons) + 1);
   for (int n = 1; n <= photons; ++n) {
-    table[n] = {static_cast<float>(octobox_ratio(use, n)), box_share(use, n)};
+    table[n] = {static_cast<float>(octobox_ratio(use, n)), box_share(use, n), box_share_of_cut(n)};
   }
   return table;
 }

@@ -27,11 +27,15 @@ double octobox_ratio(OctantUse use, int photons);
 /// Weight of the box; the rest is the disc's. From 0 where the box's noise has no bound to 1 where
 /// it is below 1.3 times that of the disc. Eight boxes are held up by four times as many photons.
 float box_share(OctantUse use, int photons);
+/// The same where a wall cuts the disc, which is wrong there: fewer photons are trusted, so that
+/// the estimate is darker by less and the noise of the box is still bearable.
+float box_share_of_cut(int photons);
 
 /// At one number of photons.
 struct OctoBoxCorrection {
   float ratio = 1;
-  float share = 0;
+  float share = 0;      // of the box
+  float cut_share = 0;  // where a wall cuts the disc
 };
 /// For 0 to `photons` photons.
 std::vector<OctoBoxCorrection> make_octobox_corrections(OctantUse use, int photons);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "estimators/feelers.h"
+#include "estimators/region_search.h"
 
 namespace octolux {
 
@@ -15,10 +15,7 @@ constexpr float kShort = 1 - 0x1p-18f;
 constexpr std::size_t kPacket = RayPacket::kSize;
 
 TangentPlane tangent_plane(const GatherPoint& at, float radius) {
-  FeelerQuery query;
-  query.point = at.at.point();
-  query.normal = at.at.facing_normal();
-  query.wo = at.at.wo();
+  FeelerQuery query = feeler_query(at, 8);
   query.length = radius;
   TangentPlane plane(query);
   plane.avoid_overhang(*at.caster, query.wo);

@@ -27,7 +27,7 @@ struct EyeConfig {
   int samples_per_pass = -1;  // eye samples per pixel and pass; -1: see resolved()
   double retrace = 2;         // gather rays shorter than this many bandwidths go on
   bool learn = true;          // learn before the first pass where light comes from and is seen
-  bool seen = false;          // gathered look-ups count only photons that they see (seen_photons.h)
+  bool seen = true;           // gathered look-ups count only photons that they see (seen_photons.h)
   double reuse = 0.5;         // how far gather rays share irradiance (record_sites.h); 0: never
 };
 

@@ -68,7 +68,12 @@ TEST(OctoBoxTable, FewPhotonsAreTheDiscs) {
     EXPECT_EQ(table[0].share, 0);
     EXPECT_EQ(table[3].share, 0);
     EXPECT_EQ(table[200].share, 1);
-    for (std::size_t n = 1; n < table.size(); ++n) EXPECT_GE(table[n].share, table[n - 1].share);
+    EXPECT_EQ(table[3].cut_share, 0);
+    EXPECT_EQ(table[18].cut_share, 1);
+    for (std::size_t n = 1; n < table.size(); ++n) {
+      EXPECT_GE(table[n].share, table[n - 1].share);
+      EXPECT_GE(table[n].cut_share, table[n].share);
+    }
   }
 }
 
