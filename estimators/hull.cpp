@@ -35,6 +35,8 @@ class Hull final : public Estimator {
     return estimate;
   }
 
+  bool sees_geometry() const override { return disc_rule(config_).seen; }
+
  private:
   /// Area of the disc by that of the hull.
   double corrected(const GatherPoint& at, const PhotonMap& map, const Disc& disc, int count) const {

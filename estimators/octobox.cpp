@@ -33,6 +33,8 @@ class OctoBox final : public Estimator {
     return config_.correction ? corrected(at, map, disc) : published(at, map, disc);
   }
 
+  bool sees_geometry() const override { return disc_rule(config_).seen; }
+
  private:
   Estimate corrected(const GatherPoint& at, const PhotonMap& map, const Disc& disc) const {
     const OctoBoxCorrection& correction = table_[disc.photons.size()];

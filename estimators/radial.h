@@ -80,6 +80,7 @@ class Radial final : public Estimator {
     return disc.empty() ? Estimate{} : radial_sum(at, map, disc, kernel_);
   }
   float k(float s) const override { return kernel_.k(s); }
+  bool sees_geometry() const override { return rule_.seen; }
 
  private:
   DiscRule rule_;

@@ -8,7 +8,6 @@
 #include "core/bsdf_makers.h"
 #include "core/constants.h"
 #include "core/rng.h"
-#include "estimators/clearance.h"
 
 namespace octolux {
 
@@ -37,7 +36,7 @@ GatherRecords::GatherRecords(RecordSites sites, const RadianceMap& map, const Ra
       white_radiance_(sites_.size() * kDepths),
       arrivals_(sites_.size() * kDepths),
       reach_(sites_.size()),
-      free_(config.must_see ? sites_.size() : 0),
+      clearing_(config.must_see ? sites_.size() : 0),
       surroundings_(sites_.size()) {
   for (std::uint32_t i = 0; i < map.photons().slots(); ++i) {
     longest_ = std::max(longest_, segments(map.photons().payload(i)));
@@ -68,16 +67,13 @@ std::optional<std::uint32_t> GatherRecords::find(const GatherPoint& at) const {
   return found->record;
 }
 
-/// Mostly known without a ray: nothing at all is in the way so near to the record.
+/// Mostly known without a ray: feelers around the record found nothing in the way.
 bool GatherRecords::sees(std::uint32_t record, const SurfacePoint& point, Vec3 normal) const {
   const SurfacePoint there = sites_.point(record);
-  const float free = free_.get(record, [&] {
-    FeelerQuery query{.point = there, .normal = there.ng, .wo = there.ng, .edges = false};
-    query.length = reach_.get(record, [&] { return sites_.reach(record); });
-    return free_distance(*caster_, query, query.length, 0);
-  });
-  const Vec3 across = point.position - there.position;
-  if (dot(across, across) < free * free) return true;
+  const float reach = reach_.get(record, [&] { return sites_.reach(record); });
+  const Clearing clearing =
+      clearing_.get(record, [&] { return Clearing::around(*caster_, there, reach); });
+  if (clearing.contains(there.ng, point.position - there.position, reach)) return true;
   return !caster_->occluded(connecting_ray({point.position, normal, point.error},
                                            {there.position, there.ng, there.error}));
 }

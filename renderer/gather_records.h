@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/bsdf.h"
+#include "estimators/clearing.h"
 #include "estimators/radiance_map.h"
 #include "renderer/gather_guide.h"
 #include "renderer/lazy.h"
@@ -50,7 +51,7 @@ class GatherRecords {
   /// Without surroundings and arrivals, which few records are asked for.
   static constexpr double kBytesPerRecord =
       RecordSites::kBytesPerSite + kDepths * LazyValues<Rgb>::kBytesPerValue +
-      2 * LazyValues<float>::kBytesPerValue + (1 + kDepths) * sizeof(void*);
+      LazyValues<float>::kBytesPerValue + LazyValues<Clearing>::kBytesPerValue + (1 + kDepths) * sizeof(void*);
 
   GatherRecords() = default;
   /// The map and the caster must outlive the records and stay where they are.
@@ -88,7 +89,7 @@ class GatherRecords {
   LazyValues<Rgb> white_radiance_;  // kDepths per record
   LazyObjects<Arrivals> arrivals_;  // kDepths per record
   LazyValues<float> reach_;         // [m] as RecordSites has it
-  LazyValues<float> free_;          // [m] around a record nothing is in the way
+  LazyValues<Clearing> clearing_;   // of the record's reach
   LazyObjects<Surroundings> surroundings_;
 };
 

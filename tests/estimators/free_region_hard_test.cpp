@@ -114,19 +114,6 @@ TEST(FreeRegion, CoplanarFacesChangeNothing) {
   EXPECT_GT(out.share, 0.999 - kOnTheLine);
 }
 
-/// A tunnel's floor or a barrel's back: half a cylinder of radius 2 about the x axis.
-void add_half_cylinder(Room& room, int facets, float bend) {
-  constexpr float kRadius = 2;
-  for (int i = 0; i < facets; ++i) {
-    const float a = kPi * static_cast<float>(i) / static_cast<float>(facets);
-    const float b = kPi * static_cast<float>(i + 1) / static_cast<float>(facets);
-    const auto at = [&](float x, float angle) {
-      return Vec3{x, -kRadius * std::cos(angle), bend * kRadius * (1 - std::sin(angle))};
-    };
-    room.quad(at(-kFar, a), at(kFar, a), at(kFar, b), at(-kFar, b));
-  }
-}
-
 TEST(FreeRegion, TessellatedCurvesGoOn) {
   for (const int facets : {16, 64, 1024}) {
     for (const float bend : {1.0f, -1.0f}) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/constants.h"
 #include "core/rng.h"
 #include "core/scattering.h"
 #include "estimators/free_region.h"
@@ -86,6 +87,18 @@ class Room {
   std::vector<Shape> shapes_;
   std::unique_ptr<RayCaster> caster_;
 };
+
+/// A tunnel's floor or a barrel's back: half a cylinder of radius 2 about the x axis, its lowest
+/// (bend 1) or highest (-1) line at z = 0.
+inline void add_half_cylinder(Room& room, int facets, float bend) {
+  for (int i = 0; i < facets; ++i) {
+    const auto at = [&](float x, int k) {
+      const float angle = kPi * static_cast<float>(k) / static_cast<float>(facets);
+      return Vec3{x, -2 * std::cos(angle), 2 * bend * (1 - std::sin(angle))};
+    };
+    room.quad(at(-20, i), at(20, i), at(20, i + 1), at(-20, i + 1));
+  }
+}
 
 /// A query at (x, y) on the floor, seen from straight above; `length` of the feelers before the
 /// map.

@@ -95,17 +95,6 @@ TEST(SeenPhotons, PublishedFormsStayAsTheyAre) {
   }
 }
 
-/// Half a cylinder of radius 2 about the x axis, its lowest (bend 1) or highest (-1) line at z = 0.
-void add_half_cylinder(Room& room, int facets, float bend) {
-  for (int i = 0; i < facets; ++i) {
-    const auto at = [&](float x, int k) {
-      const float angle = kPi * static_cast<float>(k) / static_cast<float>(facets);
-      return Vec3{x, -2 * std::cos(angle), 2 * bend * (1 - std::sin(angle))};
-    };
-    room.quad(at(-20, i), at(20, i), at(20, i + 1), at(-20, i + 1));
-  }
-}
-
 TEST(SeenPhotons, ACurvedSurfaceIsNoWall) {
   constexpr float kRadius = 0.8f;
   for (const int facets : {16, 64, 1024}) {
