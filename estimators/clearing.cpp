@@ -13,25 +13,25 @@ namespace {
 constexpr float kHalfSector = 0.92387953f;  // cos(22.5 degrees)
 constexpr float kBeyond = 1.01f;            // so that an open sector reaches all of it
 
-}  // namespace
-
-Clearing Clearing::around(const RayCaster& caster, const SurfacePoint& point, float reach) {
-  FeelerQuery query{.point = point, .normal = point.ng, .wo = point.ng, .edges = false};
-  query.length = reach * kBeyond / kHalfSector;
-  const Feelers feelers = trace_feelers(caster, query, TangentPlane(query));
-  Clearing clearing;
-  for (int i = 0; i < feelers.count; ++i) {
-    const float end = std::min(feelers.all[i].end, feelers.all[(i + 1) % feelers.count].end);
-    clearing.free_[i] =
-        static_cast<std::uint8_t>(kSteps * std::clamp(end * kHalfSector / reach, 0.0f, 1.0f));
-  }
-  return clearing;
+FeelerQuery longer(FeelerQuery query) {
+  query.length *= kBeyond / kHalfSector;
+  return query;
 }
 
-bool Clearing::contains(Vec3 normal, Vec3 across, float reach) const {
-  const Frame frame = Frame::from_normal(normal);
-  const float free = free_[octant(dot(across, frame.s), dot(across, frame.t))] * (reach / kSteps);
-  return dot(across, across) <= free * free;
+}  // namespace
+
+Clearing::Clearing(const RayCaster& caster, const FeelerQuery& query, const TangentPlane& plane) {
+  const Feelers feelers = trace_feelers(caster, longer(query), plane);
+  for (std::size_t i = 0; i < free_.size(); ++i) {
+    const float end = std::min(feelers.all[i].end, feelers.all[(i + 1) % free_.size()].end);
+    const float share = std::clamp(end * kHalfSector / query.length, 0.0f, 1.0f);
+    free_[i] = static_cast<std::uint8_t>(kSteps * share);
+  }
+}
+
+bool Clearing::contains(Vec2 p, float reach) const {
+  const float free = static_cast<float>(free_[octant(p.x, p.y)]) * (reach / kSteps);
+  return dot(p, p) <= free * free;
 }
 
 }  // namespace octolux

@@ -57,23 +57,37 @@ int GatherRecords::depth_index(int max_segments) const {
   return std::min(config_.max_segments, longest_) - std::min(max_segments, longest_);
 }
 
+float GatherRecords::reach(std::uint32_t record) const {
+  return reach_.get(record, [&] { return sites_.reach(record); });
+}
+
 /// The record that serves the point, as far as the sites know.
 std::optional<std::uint32_t> GatherRecords::find(const GatherPoint& at) const {
   const std::optional<RecordSites::Found> found =
       sites_.find(photon_query(at, map_->bandwidth()), at.at.facing_shading_normal());
   if (!found) return std::nullopt;
-  const float reach = reach_.get(found->record, [&] { return sites_.reach(found->record); });
-  if (!(found->distance2 < reach * reach)) return std::nullopt;
+  const float far = reach(found->record);
+  if (!(found->distance2 < far * far)) return std::nullopt;
   return found->record;
 }
 
-/// Mostly known without a ray: feelers around the record found nothing in the way.
+/// How far the record sees, within its reach.
+Clearing GatherRecords::clearing(std::uint32_t record) const {
+  return clearing_.get(record, [&] {
+    const SurfacePoint there = sites_.point(record);
+    FeelerQuery query{.point = there, .normal = there.ng, .wo = there.ng, .edges = false};
+    query.length = reach(record);
+    return Clearing(*caster_, query, TangentPlane(query));
+  });
+}
+
+/// Does the record see a point within its reach? Mostly known without a ray.
 bool GatherRecords::sees(std::uint32_t record, const SurfacePoint& point, Vec3 normal) const {
+  const Clearing free = clearing(record);
+  if (free.whole()) return true;
   const SurfacePoint there = sites_.point(record);
-  const float reach = reach_.get(record, [&] { return sites_.reach(record); });
-  const Clearing clearing =
-      clearing_.get(record, [&] { return Clearing::around(*caster_, there, reach); });
-  if (clearing.contains(there.ng, point.position - there.position, reach)) return true;
+  const Vec3 across = Frame::from_normal(there.ng).to_local(point.position - there.position);
+  if (free.contains({across.x, across.y}, reach(record))) return true;
   return !caster_->occluded(connecting_ray({point.position, normal, point.error},
                                            {there.position, there.ng, there.error}));
 }

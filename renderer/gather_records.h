@@ -51,7 +51,8 @@ class GatherRecords {
   /// Without surroundings and arrivals, which few records are asked for.
   static constexpr double kBytesPerRecord =
       RecordSites::kBytesPerSite + kDepths * LazyValues<Rgb>::kBytesPerValue +
-      LazyValues<float>::kBytesPerValue + LazyValues<Clearing>::kBytesPerValue + (1 + kDepths) * sizeof(void*);
+      LazyValues<float>::kBytesPerValue + LazyValues<Clearing>::kBytesPerValue +
+      (1 + kDepths) * sizeof(void*);
 
   GatherRecords() = default;
   /// The map and the caster must outlive the records and stay where they are.
@@ -76,6 +77,8 @@ class GatherRecords {
   std::optional<Serving> serving(const GatherPoint& at) const;
   Rgb white_radiance(const Serving& by) const;
   const Arrivals& arrivals(const Serving& by) const;
+  float reach(std::uint32_t record) const;  // [m]
+  Clearing clearing(std::uint32_t record) const;
   bool sees(std::uint32_t record, const SurfacePoint& point, Vec3 normal) const;
   template <class Use>
   auto at_record(std::uint32_t record, int max_segments, const Use& use) const;

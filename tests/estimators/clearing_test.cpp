@@ -16,6 +16,16 @@ SurfacePoint floor_point(Room& room, Vec2 p) {
   return point;
 }
 
+Clearing clearing_around(Room& room, const SurfacePoint& point, float reach) {
+  const FeelerQuery query{.point = point, .normal = point.ng, .wo = point.ng, .length = reach};
+  return {room.caster(), query, TangentPlane(query)};
+}
+
+bool contains(const Clearing& clearing, const SurfacePoint& from, Vec3 across, float reach) {
+  const Vec3 p = Frame::from_normal(from.ng).to_local(across);
+  return clearing.contains({p.x, p.y}, reach);
+}
+
 Vec2 in_disc(Rng& rng) { return sample_disk(rng.uniform2()); }
 
 TEST(Clearing, EndsAtWallsOfAnyAngleAtAnyScale) {
@@ -30,11 +40,12 @@ TEST(Clearing, EndsAtWallsOfAnyAngleAtAnyScale) {
     room.floor(-20, -20, 20, 20);
     room.wall({-20, distance}, {20, distance});
     const SurfacePoint point = floor_point(room, {0, 0});
-    const Clearing clearing = Clearing::around(room.caster(), point, placement.scale);
+    const Clearing clearing = clearing_around(room, point, placement.scale);
+    EXPECT_FALSE(clearing.whole() && distance < 0.99f);
     for (int k = 0; k < 100; ++k) {
       const Vec2 p = in_disc(rng);
       const Vec3 across = placement.vector({p.x, p.y, 0}) * placement.scale;
-      const bool contained = clearing.contains(point.ng, across, placement.scale);
+      const bool contained = contains(clearing, point, across, placement.scale);
       const bool behind = p.y > distance, near = length(p) < 0.9f * distance - 0.01f;
       EXPECT_FALSE(contained && behind) << distance << ' ' << p.x << ' ' << p.y;
       EXPECT_TRUE(contained || !near) << distance << ' ' << p.x << ' ' << p.y;
@@ -46,11 +57,12 @@ TEST(Clearing, ReachesAllOfAnOpenFloor) {
   Room room;
   room.floor(-20, -20, 20, 20);
   const SurfacePoint point = floor_point(room, {0.3f, 0.1f});
-  const Clearing clearing = Clearing::around(room.caster(), point, 0.5f);
+  const Clearing clearing = clearing_around(room, point, 0.5f);
+  EXPECT_TRUE(clearing.whole());
   Rng rng = rng_of(52);
   for (int k = 0; k < 1000; ++k) {
     const Vec2 p = in_disc(rng) * 0.5f;
-    EXPECT_TRUE(clearing.contains(point.ng, {p.x, p.y, 0}, 0.5f));
+    EXPECT_TRUE(contains(clearing, point, {p.x, p.y, 0}, 0.5f));
   }
 }
 
@@ -61,10 +73,10 @@ TEST(Clearing, ACurvedSurfaceIsNoWall) {
       Room room;
       add_half_cylinder(room, facets, bend);
       const SurfacePoint point = floor_point(room, {0.01f, 0.02f});
-      const Clearing clearing = Clearing::around(room.caster(), point, 0.8f);
+      const Clearing clearing = clearing_around(room, point, 0.8f);
       for (int k = 0; k < 200; ++k) {
         const Vec2 p = in_disc(rng) * 0.7f;
-        EXPECT_TRUE(clearing.contains(point.ng, {p.x, p.y, 0}, 0.8f)) << facets << ' ' << bend;
+        EXPECT_TRUE(contains(clearing, point, {p.x, p.y, 0}, 0.8f)) << facets << ' ' << bend;
       }
     }
   }
