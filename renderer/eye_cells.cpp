@@ -6,7 +6,6 @@
 
 #include "core/parallel.h"
 #include "renderer/glance.h"
-#include "renderer/roulette.h"
 #include "renderer/tracer.h"
 
 namespace octolux {
@@ -31,19 +30,18 @@ struct Glances {
   bool near(Vec3 a, Vec3 b) const { return length(a - b) < kNear * length(a - eye); }
 };
 
-/// Adds the place where `ray` meets the first smooth lobes. Or else, from there, looks
-/// `gather_rays` times once more, and leaves out what is near.
-void look(Tracer& tracer, const Ray& ray, int gather_rays, Glances& glances) {
+/// Adds the place where `ray` meets the first smooth lobes. Or else those where gather rays from
+/// there read the global map, but for what is near.
+void look(Tracer& tracer, const Ray& ray, PhotonKind kind, Glances& glances) {
   follow_to_smooth(tracer, ray, [&](const Scattering& at) {
-    const Vec3 here = at.point().position;
-    if (gather_rays == 0) glances.found.push_back({here, at.facing_normal()});
-    for (int i = 0; i < gather_rays; ++i) {
-      const std::size_t before = glances.found.size();
-      const std::optional<BsdfSample> s = sample_lobes(tracer.rng, at, Lobes::smooth);
-      if (s) look(tracer, at.spawn(s->wi), 0, glances);
-      const bool added = glances.found.size() > before;
-      if (added && glances.near(here, glances.found.back().position)) glances.found.pop_back();
+    if (kind != PhotonKind::global) {
+      glances.found.push_back({at.point().position, at.facing_normal()});
+      return;
     }
+    gather_from(tracer, at, kGatherRays, [&](const Scattering& there) {
+      if (glances.near(at.point().position, there.point().position)) return;
+      glances.found.push_back({there.point().position, there.facing_normal()});
+    });
   });
 }
 
@@ -107,7 +105,6 @@ int EyeCells::find(Vec3 position, Vec3 normal) const {
 }
 
 EyeCells look_around(const Scene& scene, PhotonKind kind, std::uint64_t seed) {
-  const int gather_rays = kind == PhotonKind::global ? kGatherRays : 0;
   const Vec3 eye = scene.camera_config.to_world.point({0, 0, 0});
   std::vector<Glances> parts(kEyePaths / kChunk, Glances{eye, {}});
   parallel_for_chunks(kEyePaths, kChunk,
@@ -115,7 +112,7 @@ EyeCells look_around(const Scene& scene, PhotonKind kind, std::uint64_t seed) {
                         for (std::int64_t i = begin; i < end; ++i) {
                           const auto index = static_cast<std::uint64_t>(i);
                           Tracer tracer(scene, Rng(seed, Stream::learning, 0, index));
-                          look(tracer, random_eye_ray(scene, tracer.rng), gather_rays,
+                          look(tracer, random_eye_ray(scene, tracer.rng), kind,
                                parts[static_cast<std::size_t>(chunk)]);
                         }
                       });

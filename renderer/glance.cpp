@@ -33,4 +33,12 @@ void follow_to_smooth(Tracer& tracer, Ray ray, const std::function<void(const Sc
   }
 }
 
+void gather_from(Tracer& tracer, const Scattering& at, int rays,
+                 const std::function<void(const Scattering&)>& see) {
+  for (int i = 0; i < rays; ++i) {
+    const std::optional<BsdfSample> s = sample_lobes(tracer.rng, at, Lobes::smooth);
+    if (s) follow_to_smooth(tracer, at.spawn(s->wi), see);
+  }
+}
+
 }  // namespace octolux

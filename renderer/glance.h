@@ -1,5 +1,6 @@
 // A look from the eye, before any pass: along a random eye path to the first place where light is
-// gathered. What is learned for the picture is learned from such places.
+// gathered, and on to where gather rays end. What is learned for the picture is learned from such
+// places.
 #pragma once
 
 #include <functional>
@@ -15,5 +16,10 @@ Ray random_eye_ray(const Scene& scene, Rng& rng);
 /// Follows `ray` through specular lobes and calls see(at) where it meets the first smooth ones, if
 /// ever it does.
 void follow_to_smooth(Tracer& tracer, Ray ray, const std::function<void(const Scattering&)>& see);
+
+/// Sends `rays` rays from `at` as its smooth lobes scatter, and calls see(at) where such a ray
+/// would read the photon map: where it meets the first smooth lobes.
+void gather_from(Tracer& tracer, const Scattering& at, int rays,
+                 const std::function<void(const Scattering&)>& see);
 
 }  // namespace octolux
