@@ -19,7 +19,8 @@ enum class Stream : std::uint64_t {
   learning = 6,
   sequence = 7,
   guide = 8,
-  lights = 9
+  lights = 9,
+  look = 10
 };
 
 /// splitmix64 finaliser (Steele, Lea & Flood 2014): a bijection of 64 bits with full avalanche.

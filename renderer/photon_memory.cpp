@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "renderer/gather_records.h"
 #include "renderer/photon_pass.h"
+#include "renderer/record_pass.h"
 #include "renderer/stop_rules.h"
 
 namespace octolux {
@@ -37,7 +38,7 @@ PhotonMemory foresee_photons(const Scene& scene, const LightSampler& lights, con
   const bool gather = config.eye.gather;
   const double per_path = stored(scene, {lights, aim.global}, PhotonKind::global, key);
   const double global = per_path * static_cast<double>(config.photons.global);
-  double caustic = 0, sites = 0;
+  double caustic = 0, reach = 0, sites = 0;  // reach: photons that tell how far records serve
   if (gather && config.photons.caustic > 0) {
     caustic = stored(scene, {lights, aim.caustic}, PhotonKind::caustic, key) *
               static_cast<double>(config.photons.caustic);
@@ -46,11 +47,13 @@ PhotonMemory foresee_photons(const Scene& scene, const LightSampler& lights, con
     const int last = std::max(1, pass_limit(config)) - 1;
     const Bandwidth bandwidth =
         look_up_bandwidth(scene, 1, 1, 1, config.photons.alpha, static_cast<std::uint64_t>(last));
-    sites = per_path * static_cast<double>(record_paths(config.photons.global, bandwidth));
+    reach = per_path * static_cast<double>(record_paths(config.photons.global, bandwidth));
+    sites = most_record_sites(scene, config.eye, reach);
   }
   // As they are made (render.cpp), each while those before it stay.
-  const double records = GatherRecords::kBytesPerRecord * sites;
-  const double bytes = std::max({kBytesToMap * global, kInMap * global + kTraced * sites + records,
+  const double records =
+      GatherRecords::kBytesPerRecord * sites + RecordSites::kBytesPerPhoton * reach;
+  const double bytes = std::max({kBytesToMap * global, kInMap * global + kTraced * reach + records,
                                  kInMap * global + records + kBytesToMap * caustic});
   return {global + caustic, bytes};
 }

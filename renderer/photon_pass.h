@@ -2,8 +2,8 @@
 // One walk serves both maps; they differ in what they follow and keep (Heckbert's notation):
 //   global   L (S|D)* D   follows every lobe, keeps a photon at every D
 //   caustic  L S+ D       follows specular lobes only, keeps a photon where such a chain ends
-// Records of irradiance lie where global photons of other paths land, and guides are learned from
-// global photons of others still.
+// How far records of irradiance serve is told by global photons of other paths, and guides are
+// learned from global photons of others still.
 #pragma once
 
 #include <cstdint>

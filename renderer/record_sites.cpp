@@ -19,33 +19,45 @@ constexpr std::uint32_t kBlockSize = PhotonTree::kBlockSize;
 /// Between the normals of a record and of a point it serves, geometric and shading ones each.
 constexpr float kMinCosine = 0.95f;
 
-/// The density of sites is told by the distance of so many.
+/// The density of photons is told by the distance of so many.
 constexpr std::size_t kCounted = 4;
+
+/// A tree over the finite ones of `places`, and what lies in its slots.
+struct Sorted {
+  PhotonTree tree;
+  std::vector<PhotonTree::Item> slots;
+};
+template <class Place>
+Sorted sort(const std::vector<Place>& places, Vec3 Place::*normal) {
+  Sorted sorted;
+  std::vector<FacingSet> facing;
+  for (const Place& place : places) {
+    const auto index = static_cast<std::uint32_t>(facing.size());
+    facing.push_back(octolux::facing(place.*normal));
+    const bool finite = is_finite(place.position) && is_finite(place.*normal);
+    if (finite) sorted.slots.push_back({place.position, index});
+  }
+  sorted.tree = PhotonTree(sorted.slots, facing);
+  return sorted;
+}
 
 }  // namespace
 
-std::int64_t record_paths(std::int64_t photons, const Bandwidth& bandwidth) {
-  constexpr double kShare = 0.2;  // of the photons, where the bandwidth is not yet shrunk
-  const double share = std::min(1.0, kShare / (bandwidth.shrink * bandwidth.shrink));
-  return static_cast<std::int64_t>(share * static_cast<double>(photons));
-}
+RecordSites::RecordSites(const std::vector<RecordSite>& sites, const std::vector<Photon>& photons,
+                         const Bandwidth& bandwidth, int neighbours, double reuse) {
+  Sorted sorted = sort(sites, &RecordSite::ng);
+  for (const PhotonTree::Item& slot : sorted.slots) {
+    const RecordSite& site = slot.index == PhotonTree::kNone ? RecordSite{} : sites[slot.index];
+    surfaces_.push_back({site.ng, site.ns, site.error});
+  }
+  sites_ = std::move(sorted.tree);
 
-RecordSites::RecordSites(const std::vector<Photon>& photons, const Bandwidth& bandwidth,
-                         int neighbours, double reuse) {
-  std::vector<PhotonTree::Item> items;
-  std::vector<FacingSet> facing;
-  for (const Photon& photon : photons) {
-    const auto index = static_cast<std::uint32_t>(facing.size());
-    facing.push_back(octolux::facing(photon.normal));
-    if (is_usable(photon)) items.push_back({photon.position, index});
+  sorted = sort(photons, &Photon::normal);
+  for (const PhotonTree::Item& slot : sorted.slots) {
+    normals_.push_back(slot.index == PhotonTree::kNone ? Vec3{} : photons[slot.index].normal);
   }
-  tree_ = PhotonTree(items, facing);
-  sites_.resize(items.size());
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    if (items[i].index == PhotonTree::kNone) continue;
-    const Photon& photon = photons[items[i].index];
-    sites_[i] = {photon.normal, photon.ns, photon.error};
-  }
+  photons_ = std::move(sorted.tree);
+
   const float share = static_cast<float>(reuse) * bandwidth.shrink;
   scale_ = share * std::sqrt(static_cast<float>(neighbours) / kCounted);
   max_reach_ = share * bandwidth.max_radius;
@@ -54,17 +66,17 @@ RecordSites::RecordSites(const std::vector<Photon>& photons, const Bandwidth& ba
 std::optional<RecordSites::Found> RecordSites::find(const PhotonQuery& query,
                                                     Vec3 shading_normal) const {
   Found best{kNone, max_reach_ * max_reach_};
-  PhotonTreeWalk walk(tree_, query.position, facing_near(query.normal));
+  PhotonTreeWalk walk(sites_, query.position, facing_near(query.normal));
   for (;;) {
     const std::uint32_t b = walk.next<PhotonTreeWalk::Order::nearest_first>(best.distance2);
     if (b == kNone) break;
-    const BlockDistances block(tree_.block(b), query);
+    const BlockDistances block(sites_.block(b), query);
     for (std::uint32_t near = block.nearer_than(best.distance2); near != 0; near &= near - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(near));
       const std::uint32_t site = b * kBlockSize + lane;
       if (!(block.distance2[lane] < best.distance2)) continue;
-      if (!(dot(sites_[site].ng, query.normal) > kMinCosine)) continue;
-      if (!(dot(sites_[site].ns, shading_normal) > kMinCosine)) continue;
+      if (!(dot(surfaces_[site].ng, query.normal) > kMinCosine)) continue;
+      if (!(dot(surfaces_[site].ns, shading_normal) > kMinCosine)) continue;
       best = {site, block.distance2[lane]};
     }
   }
@@ -73,22 +85,23 @@ std::optional<RecordSites::Found> RecordSites::find(const PhotonQuery& query,
 }
 
 float RecordSites::reach(std::uint32_t record) const {
-  const Vec3 normal = sites_[record].ng;
-  const PhotonQuery query{.position = tree_.position(record), .normal = normal};
+  const Vec3 normal = surfaces_[record].ng;
+  const PhotonQuery query{.position = sites_.position(record), .normal = normal};
   std::array<float, kCounted> nearest;  // squared distances, sorted
   const float farthest = max_reach_ / scale_;
   nearest.fill(farthest * farthest);
-  PhotonTreeWalk walk(tree_, query.position, facing_near(normal));
+  PhotonTreeWalk walk(photons_, query.position, facing_near(normal));
   for (;;) {
     const std::uint32_t b = walk.next<PhotonTreeWalk::Order::nearest_first>(nearest.back());
     if (b == kNone) break;
-    const BlockDistances block(tree_.block(b), query);
+    const BlockDistances block(photons_.block(b), query);
     for (std::uint32_t near = block.nearer_than(nearest.back()); near != 0; near &= near - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(near));
-      const std::uint32_t site = b * kBlockSize + lane;
+      const std::uint32_t photon = b * kBlockSize + lane;
       const float distance2 = block.distance2[lane];
-      if (site == record || !(distance2 < nearest.back())) continue;
-      if (!(dot(sites_[site].ng, normal) > kMinCosine)) continue;
+      // A site that is a photon does not count itself.
+      if (distance2 == 0 || !(distance2 < nearest.back())) continue;
+      if (!(dot(normals_[photon], normal) > kMinCosine)) continue;
       std::size_t place = kCounted - 1;
       for (; place > 0 && distance2 < nearest[place - 1]; --place)
         nearest[place] = nearest[place - 1];
@@ -100,10 +113,10 @@ float RecordSites::reach(std::uint32_t record) const {
 
 SurfacePoint RecordSites::point(std::uint32_t record) const {
   SurfacePoint point;
-  point.position = tree_.position(record);
-  point.ng = sites_[record].ng;
-  point.ns = sites_[record].ns;
-  point.error = sites_[record].error;
+  point.position = sites_.position(record);
+  point.ng = surfaces_[record].ng;
+  point.ns = surfaces_[record].ns;
+  point.error = surfaces_[record].error;
   return point;
 }
 

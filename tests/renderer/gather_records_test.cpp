@@ -34,6 +34,12 @@ std::vector<Photon> on_square(int count, Rng rng) {
   return photons;
 }
 
+std::vector<RecordSite> sites_at(const std::vector<Photon>& photons) {
+  std::vector<RecordSite> sites;
+  for (const Photon& p : photons) sites.push_back({p.position, p.normal, p.ns, p.error});
+  return sites;
+}
+
 TriangleMesh square(Vec3 corner, Vec3 a, Vec3 b) {
   return {{corner, corner + a, corner + a + b, corner + b}, {}, {}, {{0, 1, 2}, {0, 2, 3}}};
 }
@@ -70,7 +76,8 @@ class Records : public testing::Test {
     estimator_ = make_estimator({.kernel = "cone", .neighbours = kNeighbours});
   }
   GatherRecords make(const std::vector<Photon>& sites, const RadianceMap& map) const {
-    return {RecordSites(sites, map.bandwidth(), kNeighbours, kReuse), map, caster_, config_};
+    return {RecordSites(sites_at(sites), sites, map.bandwidth(), kNeighbours, kReuse), map, caster_,
+            config_};
   }
   RadianceMap map(std::vector<Photon> photons, float shrink = 1) const {
     return {PhotonMap(std::move(photons)), *estimator_, {1, shrink}};
@@ -86,8 +93,8 @@ TEST_F(Records, TheNearestSiteThatFacesTheSameWayServes) {
   std::vector<Photon> photons = on_square(4000, rng_of(0, 0));
   for (std::size_t i = 0; i < photons.size(); i += 3) photons[i].normal = photons[i].ns = -kUp;
   const Bandwidth bandwidth{1, 1};
-  const RecordSites sites(photons, bandwidth, kNeighbours, kReuse);
-  const RecordSites near(photons, bandwidth, kNeighbours, 1e-4);
+  const RecordSites sites(sites_at(photons), photons, bandwidth, kNeighbours, kReuse);
+  const RecordSites near(sites_at(photons), photons, bandwidth, kNeighbours, 1e-4);
   for (int i = 0; i < 500; ++i) {
     const Vec2 at = rng_of(1, i).uniform2();
     const Vec3 position{at.x, at.y, 0.001f};
@@ -108,11 +115,11 @@ TEST_F(Records, TheNearestSiteThatFacesTheSameWayServes) {
 }
 
 /// Four others on a surface that faces the same way tell the bandwidth of a look-up for 20.
-TEST_F(Records, ReachAsFarAsTheSitesAroundTell) {
+TEST_F(Records, ReachAsFarAsThePhotonsAroundTell) {
   std::vector<Photon> photons = on_square(1000, rng_of(9, 0));
   for (std::size_t i = 0; i < photons.size(); i += 3) photons[i].normal = photons[i].ns = -kUp;
   for (const float shrink : {1.0f, 0.5f}) {
-    const RecordSites sites(photons, {1, shrink}, kNeighbours, kReuse);
+    const RecordSites sites(sites_at(photons), photons, {1, shrink}, kNeighbours, kReuse);
     for (const Vec2 at : {Vec2{0.5f, 0.5f}, Vec2{0, 0}, Vec2{0.2f, 0.9f}}) {
       const PhotonQuery query{.position = {at.x, at.y, 0}, .normal = kUp};
       const std::uint32_t record = sites.find(query, kUp)->record;
@@ -126,8 +133,21 @@ TEST_F(Records, ReachAsFarAsTheSitesAroundTell) {
     }
   }
   // Of one alone nobody knows.
-  const RecordSites one({photons[1]}, {2, 0.5f}, kNeighbours, kReuse);
+  const RecordSites one(sites_at({photons[1]}), {photons[1]}, {2, 0.5f}, kNeighbours, kReuse);
   EXPECT_FLOAT_EQ(one.reach(0), static_cast<float>(kReuse) * 0.5f * 2);
+}
+
+TEST_F(Records, ReachNoLessWhereTheyLieClose) {
+  const std::vector<Photon> photons = on_square(1000, rng_of(11, 0));
+  std::vector<RecordSite> few = sites_at({photons[0]}), many = few;
+  for (const RecordSite& s : sites_at(on_square(500, rng_of(12, 0)))) many.push_back(s);
+  const PhotonQuery query{.position = photons[0].position, .normal = kUp};
+  float reach[2];
+  for (int i = 0; i < 2; ++i) {
+    const RecordSites sites(i == 0 ? few : many, photons, {1, 1}, kNeighbours, kReuse);
+    reach[i] = sites.reach(sites.find(query, kUp)->record);
+  }
+  EXPECT_EQ(reach[0], reach[1]);
 }
 
 TEST_F(Records, HoldWhatALookUpFindsThere) {
@@ -188,17 +208,19 @@ TEST_F(Records, WithoutSitesNobodyIsServed) {
   EXPECT_FALSE(GatherRecords().radiance({place.at}));
 }
 
-TEST_F(Records, SitesThatAreNotFiniteAreLeftOut) {
-  std::vector<Photon> sites = on_square(100, rng_of(8, 0));
-  const RecordSites all(sites, {1, 1}, kNeighbours, kReuse);
-  for (std::size_t i = 0; i < sites.size(); i += 3) {
-    sites.insert(sites.begin() + static_cast<std::ptrdiff_t>(i), sites[i]);
-    sites[i].position.x = i % 2 == 0 ? NAN : kInfinity;
+TEST_F(Records, WhatIsNotFiniteIsLeftOut) {
+  std::vector<Photon> photons = on_square(100, rng_of(8, 0));
+  const RecordSites all(sites_at(photons), photons, {1, 1}, kNeighbours, kReuse);
+  for (std::size_t i = 0; i < photons.size(); i += 3) {
+    photons.insert(photons.begin() + static_cast<std::ptrdiff_t>(i), photons[i]);
+    photons[i].position.x = i % 2 == 0 ? NAN : kInfinity;
   }
-  const RecordSites finite(sites, {1, 1}, kNeighbours, kReuse);
+  const RecordSites finite(sites_at(photons), photons, {1, 1}, kNeighbours, kReuse);
   ASSERT_EQ(finite.size(), all.size());
   for (std::uint32_t i = 0; i < all.size(); ++i) {
     EXPECT_EQ(finite.point(i).position, all.point(i).position);
+    if (!is_finite(all.point(i).position)) continue;
+    EXPECT_EQ(finite.reach(i), all.reach(i));
   }
 }
 
