@@ -2,6 +2,7 @@
 // is the innermost part of every look-up.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 #include "accel/photon_map.h"
@@ -31,6 +32,15 @@ struct BlockDistances {
       lanes |= static_cast<std::uint32_t>(distance2[i] < limit) << i;
     }
     return lanes;
+  }
+  /// The lane of those given, at least one, that is nearest; of equals the first.
+  std::uint32_t nearest_of(std::uint32_t lanes) const {
+    auto nearest = static_cast<std::uint32_t>(std::countr_zero(lanes));
+    for (lanes &= lanes - 1; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
+      if (distance2[lane] < distance2[nearest]) nearest = lane;
+    }
+    return nearest;
   }
 };
 

@@ -71,13 +71,15 @@ std::optional<RecordSites::Found> RecordSites::find(const PhotonQuery& query,
     const std::uint32_t b = walk.next<PhotonTreeWalk::Order::nearest_first>(best.distance2);
     if (b == kNone) break;
     const BlockDistances block(sites_.block(b), query);
-    for (std::uint32_t near = block.nearer_than(best.distance2); near != 0; near &= near - 1) {
-      const auto lane = static_cast<std::uint32_t>(std::countr_zero(near));
+    // Nearest first: normals are far away in memory, and the first that agree will do.
+    for (std::uint32_t near = block.nearer_than(best.distance2); near != 0;) {
+      const std::uint32_t lane = block.nearest_of(near);
       const std::uint32_t site = b * kBlockSize + lane;
-      if (!(block.distance2[lane] < best.distance2)) continue;
+      near &= ~(1u << lane);
       if (!(dot(surfaces_[site].ng, query.normal) > kMinCosine)) continue;
       if (!(dot(surfaces_[site].ns, shading_normal) > kMinCosine)) continue;
       best = {site, block.distance2[lane]};
+      break;
     }
   }
   if (best.record == kNone) return std::nullopt;
