@@ -1,6 +1,6 @@
-// A look from the eye, before any pass: along a random eye path to the first place where light is
+// A look from the eye, before it sees: along a random eye path to the first place where light is
 // gathered, and on to where gather rays end. What is learned for the picture is learned from such
-// places.
+// places, and there a pass keeps its records.
 #pragma once
 
 #include <functional>

@@ -51,9 +51,10 @@ PhotonMemory foresee_photons(const Scene& scene, const LightSampler& lights, con
     sites = most_record_sites(scene, config.eye, reach);
   }
   // As they are made (render.cpp), each while those before it stay.
+  const double found = sizeof(RecordSite) * sites + kTraced * reach;
   const double records =
       GatherRecords::kBytesPerRecord * sites + RecordSites::kBytesPerPhoton * reach;
-  const double bytes = std::max({kBytesToMap * global, kInMap * global + kTraced * reach + records,
+  const double bytes = std::max({kBytesToMap * global, kInMap * global + found + records,
                                  kInMap * global + records + kBytesToMap * caustic});
   return {global + caustic, bytes};
 }

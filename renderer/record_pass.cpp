@@ -2,6 +2,7 @@
 #include "renderer/record_pass.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/parallel.h"
 #include "renderer/glance.h"
@@ -12,9 +13,12 @@ namespace octolux {
 namespace {
 
 constexpr double kPhotonShare = 0.2;  // of the map's, where the bandwidth is not yet shrunk
-constexpr double kLookShare = 0.012;  // gather rays, of the pass's
+/// Gather rays, of the pass's; and of how many photons one is a site. Noise and squared bias, times
+/// time, of five scenes were 0.98 to 1.08 times as much with 0.02 and 4, and 1.0 to 1.2 times with
+/// 0.05 and no photons.
+constexpr double kLookShare = 0.012;
+constexpr std::size_t kThinning = 3;
 constexpr int kRaysPerLook = 2;       // gather rays, for one eye path
-constexpr std::size_t kThinning = 3;  // of so many photons one is a site
 constexpr std::int64_t kChunk = 256;  // eye paths
 
 /// Eye paths that look for sites.
@@ -25,13 +29,8 @@ std::int64_t looks(const Scene& scene, const EyeConfig& eye) {
   return static_cast<std::int64_t>(kLookShare * gather_rays / kRaysPerLook) + 1;
 }
 
-/// Where gather rays end, and how many rays it took to know.
-struct Found {
-  std::vector<RecordSite> sites;
-  std::int64_t rays = 0;
-};
-
-void look(const Scene& scene, Rng rng, Found& found) {
+/// Adds the places where the gather rays of one eye path end.
+void look(const Scene& scene, Rng rng, RecordPass& found) {
   Tracer tracer(scene, rng);
   follow_to_smooth(tracer, random_eye_ray(scene, tracer.rng), [&](const Scattering& at) {
     gather_from(tracer, at, kRaysPerLook, [&](const Scattering& there) {
@@ -42,8 +41,8 @@ void look(const Scene& scene, Rng rng, Found& found) {
   found.rays += tracer.rays();
 }
 
-Found look_around(const Scene& scene, std::int64_t count, PassKey key) {
-  std::vector<Found> parts(static_cast<std::size_t>((count + kChunk - 1) / kChunk));
+void look_for_sites(const Scene& scene, std::int64_t count, PassKey key, RecordPass& found) {
+  std::vector<RecordPass> parts(static_cast<std::size_t>((count + kChunk - 1) / kChunk));
   const auto trace = [&](std::int64_t chunk, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) {
       look(scene, Rng(key.seed, Stream::look, key.pass, static_cast<std::uint64_t>(i)),
@@ -51,12 +50,10 @@ Found look_around(const Scene& scene, std::int64_t count, PassKey key) {
     }
   };
   parallel_for_chunks(count, kChunk, trace);
-  Found all;
-  for (const Found& part : parts) {
-    all.sites.insert(all.sites.end(), part.sites.begin(), part.sites.end());
-    all.rays += part.rays;
+  for (const RecordPass& part : parts) {
+    found.sites.insert(found.sites.end(), part.sites.begin(), part.sites.end());
+    found.rays += part.rays;
   }
-  return all;
 }
 
 }  // namespace
@@ -72,16 +69,15 @@ double most_record_sites(const Scene& scene, const EyeConfig& eye, double photon
 
 RecordPass trace_record_sites(const Scene& scene, const PhotonSource& source,
                               const RenderConfig& config, const Bandwidth& bandwidth, PassKey key) {
-  const PhotonPass traced = trace_photons(scene, source, PhotonKind::record,
-                                          record_paths(config.photons.global, bandwidth), key);
-  Found found = look_around(scene, looks(scene, config.eye), key);
-  for (std::size_t i = 0; i < traced.photons.size(); i += kThinning) {
-    const Photon& p = traced.photons[i];
+  PhotonPass traced = trace_photons(scene, source, PhotonKind::record,
+                                    record_paths(config.photons.global, bandwidth), key);
+  RecordPass found{{}, std::move(traced.photons), traced.rays};
+  look_for_sites(scene, looks(scene, config.eye), key, found);
+  for (std::size_t i = 0; i < found.photons.size(); i += kThinning) {
+    const Photon& p = found.photons[i];
     found.sites.push_back({p.position, p.normal, p.ns, p.error});
   }
-  return {RecordSites(found.sites, traced.photons, bandwidth, config.estimator.neighbours,
-                      config.eye.reuse),
-          traced.rays + found.rays};
+  return found;
 }
 
 }  // namespace octolux

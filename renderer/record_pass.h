@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "renderer/photon_pass.h"
 #include "renderer/record_sites.h"
@@ -20,9 +21,10 @@ std::int64_t record_paths(std::int64_t photons, const Bandwidth& bandwidth);
 /// Sites of a pass where `photons` such photons are traced, at most.
 double most_record_sites(const Scene& scene, const EyeConfig& eye, double photons);
 
-/// What a pass found.
+/// What a pass found: sites, and the photons that tell how far each serves.
 struct RecordPass {
-  RecordSites sites;
+  std::vector<RecordSite> sites;
+  std::vector<Photon> photons;
   std::int64_t rays = 0;
 };
 

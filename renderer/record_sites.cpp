@@ -22,13 +22,13 @@ constexpr float kMinCosine = 0.95f;
 /// The density of photons is told by the distance of so many.
 constexpr std::size_t kCounted = 4;
 
-/// A tree over the finite ones of `places`, and what lies in its slots.
+/// A tree over the finite ones of some places, and what lies in its slots.
 struct Sorted {
   PhotonTree tree;
   std::vector<PhotonTree::Item> slots;
 };
 template <class Place>
-Sorted sort(const std::vector<Place>& places, Vec3 Place::*normal) {
+Sorted sorted_by_place(const std::vector<Place>& places, Vec3 Place::*normal) {
   Sorted sorted;
   std::vector<FacingSet> facing;
   for (const Place& place : places) {
@@ -45,14 +45,14 @@ Sorted sort(const std::vector<Place>& places, Vec3 Place::*normal) {
 
 RecordSites::RecordSites(const std::vector<RecordSite>& sites, const std::vector<Photon>& photons,
                          const Bandwidth& bandwidth, int neighbours, double reuse) {
-  Sorted sorted = sort(sites, &RecordSite::ng);
+  Sorted sorted = sorted_by_place(sites, &RecordSite::ng);
   for (const PhotonTree::Item& slot : sorted.slots) {
     const RecordSite& site = slot.index == PhotonTree::kNone ? RecordSite{} : sites[slot.index];
     surfaces_.push_back({site.ng, site.ns, site.error});
   }
   sites_ = std::move(sorted.tree);
 
-  sorted = sort(photons, &Photon::normal);
+  sorted = sorted_by_place(photons, &Photon::normal);
   for (const PhotonTree::Item& slot : sorted.slots) {
     normals_.push_back(slot.index == PhotonTree::kNone ? Vec3{} : photons[slot.index].normal);
   }

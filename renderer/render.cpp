@@ -84,7 +84,7 @@ GatherRecords make_records(const Job& job, const RadianceMap& map, PassKey key,
   if (!config.eye.gather || !(config.eye.reuse > 0)) return {};
   Stopwatch watch;
   const PhotonSource source{job.lights, job.aim.global};
-  RecordPass traced = trace_record_sites(job.scene, source, config, map.bandwidth(), key);
+  const RecordPass traced = trace_record_sites(job.scene, source, config, map.bandwidth(), key);
   progress.rays += traced.rays;
   progress.timing.photons += watch.lap();
   RecordConfig records;
@@ -92,7 +92,9 @@ GatherRecords make_records(const Job& job, const RadianceMap& map, PassKey key,
   if (job.scene.max_depth >= 0) records.max_segments = std::clamp(job.scene.max_depth - 2, 0, 255);
   records.must_see = job.estimator->sees_geometry();
   records.turn_key = hash64(hash64(key.seed) ^ key.pass);
-  GatherRecords made(std::move(traced.sites), map, *job.scene.caster, records);
+  RecordSites sites(traced.sites, traced.photons, map.bandwidth(), records.neighbours,
+                    config.eye.reuse);
+  GatherRecords made(std::move(sites), map, *job.scene.caster, records);
   progress.timing.maps += watch.lap();
   return made;
 }
