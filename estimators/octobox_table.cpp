@@ -40,7 +40,7 @@ double octobox_ratio(OctantUse use, int photons) {
 }
 
 float box_share(OctantUse use, int photons) {
-  return share_of_enough(photons, use == OctantUse::eight ? 54 : 23);
+  return share_of_enough(photons, use == OctantUse::eight ? 54 : 20);
 }
 
 float box_share_of_cut(int photons) { return share_of_enough(photons, 18); }

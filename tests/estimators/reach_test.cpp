@@ -71,6 +71,18 @@ TEST(Reach, ACoarseLook) {
   }
 }
 
+// With a share of the disc left at the photons of a render's look-up, every wall and corner is
+// darker by that share of a half and of three quarters.
+TEST(Reach, ALookUpOfARenderHasPhotonsEnoughForABox) {
+  const int neighbours = EstimatorConfig{}.neighbours;
+  const ReachMeasure walls{
+      "at walls and in corners", 0.03, 0.03, {{"wall", 0, 0}, {"corner", 0, 0}}, {neighbours}};
+  for (const LabResult& r : worst_bias(walls, settings_for("octobox", 8000))) {
+    EXPECT_LT(std::abs(r.bias()) - kDeviates * r.standard_error, walls.limit)
+        << r.bias() << " +- " << r.standard_error;
+  }
+}
+
 TEST(Reach, TheMeasuresCanFail) {
   for (const ReachMeasure& measure : reach_measures()) {
     if (measure.limit < 0.01) continue;
