@@ -25,7 +25,8 @@ int octobox_column(OctantUse use);
 double octobox_ratio(OctantUse use, int photons);
 
 /// Weight of the box; the rest is the disc's. From 0 where the box's noise has no bound to 1 where
-/// it is below 1.3 times that of the disc. Eight boxes are held up by four times as many photons.
+/// it is below 1.3 times that of the disc: 20 photons, what a render looks up. Eight boxes are held
+/// up by four times as many photons.
 float box_share(OctantUse use, int photons);
 /// The same where a wall cuts the disc, which is wrong there: fewer photons are trusted, so that
 /// the estimate is darker by less and the noise of the box is still bearable.
