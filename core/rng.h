@@ -20,7 +20,8 @@ enum class Stream : std::uint64_t {
   sequence = 7,
   guide = 8,
   lights = 9,
-  look = 10
+  look = 10,
+  trial = 11
 };
 
 /// splitmix64 finaliser (Steele, Lea & Flood 2014): a bijection of 64 bits with full avalanche.

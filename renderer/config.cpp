@@ -28,9 +28,9 @@ std::int64_t dividing(std::int64_t wanted, std::int64_t samples) {
 }  // namespace
 
 RenderConfig resolved(RenderConfig config, std::int64_t pixels) {
-  const std::int64_t automatic = std::max<std::int64_t>(50'000, pixels / 2);
-  if (config.photons.global < 0) config.photons.global = automatic;
-  if (config.photons.caustic < 0) config.photons.caustic = automatic;
+  if (config.photons.global < 0) {
+    config.photons.global = std::max<std::int64_t>(50'000, pixels / 2);
+  }
   if (config.eye.samples_per_pass < 0) {
     const bool photons = config.integrator == Integrator::photon;
     const std::int64_t wanted = photons ? kEyeSamplesPerPhoton * config.photons.global / pixels : 1;

@@ -13,7 +13,8 @@ enum class Integrator { photon, path };
 struct PhotonConfig {
   std::int64_t global =
       -1;  // paths per pass for the global map; -1: half the pixels, at least 50 000
-  std::int64_t caustic = -1;  // the same for the caustic map; 0: none, gather rays find caustics
+  std::int64_t caustic = -1;  // the same for the caustic map; 0: none, gather rays find caustics;
+                              // -1: as caustics are worth it (caustic_paths.h)
   double global_radius = 10;  // look-up limit, in units of the mean n-photon radius
   double caustic_radius = 2;  // the same for the caustic map
   double alpha = 2.0 / 3;     // Knaus & Zwicker's: how fast the bandwidth shrinks; 1: never
@@ -79,7 +80,8 @@ void visit(Config& config, Field&& field) {
   field("stop.error", config.stop.error);
 }
 
-/// The config with every automatic value (-1) replaced by what it stands for on a film of `pixels`.
+/// The config with every automatic value (-1) replaced by what it stands for on a film of `pixels`,
+/// but for photons.caustic, which depends on the scene.
 /// A pass of photon mapping takes up to 4 eye samples per pixel, so that there are about three for
 /// every photon path: on a small film the photons would else take most of the time. The number
 /// divides stop.samples, so that exactly those are taken.

@@ -15,7 +15,7 @@ namespace octolux {
 namespace {
 
 constexpr std::int64_t kChunk = 1024;  // paths
-/// Trials of all rounds: so many times the photons of a pass, within limits. Each round has as many
+/// Trials of all rounds: so many times the global photon paths of a pass, within limits. Each round has as many
 /// as all before, the first a 32nd part.
 constexpr std::int64_t kTrialsPerPhoton = 8;
 constexpr std::int64_t kMostTrials = 1 << 19, kFewestTrials = 1 << 12;
@@ -193,16 +193,15 @@ void Learner::judge() {
 EmissionDensity learn(const Scene& scene, const LightSampler& lights, PhotonKind kind,
                       const RenderConfig& config, const EmissionDensity& first) {
   const bool global = kind == PhotonKind::global;
-  const std::int64_t photons = global ? config.photons.global : config.photons.caustic;
-  if (photons == 0 || lights.empty()) return {};
-  if (!global && !scene.any_specular) return {};
+  if (lights.empty()) return {};
+  if (!global && (!scene.any_specular || config.photons.caustic == 0)) return {};
   EyeCells cells = look_around(scene, kind, config.seed);
   if (cells.size() == 0) return {};
 
   Learner learner(scene, lights, kind, std::move(cells), config.seed);
   learner.start_from(first);
   std::int64_t count =
-      std::clamp(kTrialsPerPhoton * std::min(photons, kMostTrials), kFewestTrials, kMostTrials) >>
+      std::clamp(kTrialsPerPhoton * std::min(config.photons.global, kMostTrials), kFewestTrials, kMostTrials) >>
       (kRounds - 1);
   learner.round(count);
   for (int r = 1; r < kRounds; ++r) {

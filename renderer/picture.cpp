@@ -40,6 +40,7 @@ ExrFile make_exr(const Scene& scene, const RenderConfig& wanted, const Progress&
       number["octolux." + name] = static_cast<double>(value);
     }
   });
+  number["octolux.photons.caustic"] = static_cast<double>(progress.caustic_paths);
   number["octolux.passes"] = progress.passes;
   number["octolux.photonsGlobal"] = static_cast<double>(progress.global_photons);
   number["octolux.photonsCaustic"] = static_cast<double>(progress.caustic_photons);

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "core/check.h"
+#include "renderer/caustic_paths.h"
 #include "renderer/eye_pass.h"
 #include "renderer/learn_emission.h"
 #include "renderer/path_pass.h"
@@ -141,6 +142,7 @@ RenderResult render(const Scene& scene, const RenderConfig& wanted, RenderObserv
   Stopwatch watch;
   if (config.integrator == Integrator::photon) {
     job.aim = learn_emission(scene, job.lights, config);
+    config.photons.caustic = caustic_paths(scene, job.lights, job.aim, config);
     const PhotonMemory memory = foresee_photons(scene, job.lights, job.aim, config);
     check_photons(memory, config, physical_memory());
     observer.photons_foreseen(memory);
@@ -153,6 +155,7 @@ RenderResult render(const Scene& scene, const RenderConfig& wanted, RenderObserv
   Progress& progress = result.progress;
   const double seconds_before = progress.seconds;
   progress.total_passes = pass_limit(config);
+  progress.caustic_paths = config.photons.caustic;
   result.interrupted = false;
   while (!result.interrupted && (progress.passes == 0 || !finished(config, progress))) {
     const PassKey key = job.key(progress.passes);

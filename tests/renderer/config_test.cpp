@@ -16,7 +16,6 @@ int eye_samples(std::int64_t pixels, const RenderConfig& config = {}) {
 
 TEST(AutomaticSettings, PhotonsAreHalfThePixels) {
   EXPECT_EQ(resolved({}, 1'000'000).photons.global, 500'000);
-  EXPECT_EQ(resolved({}, 1'000'000).photons.caustic, 500'000);
   EXPECT_EQ(resolved({}, 100).photons.global, 50'000);
 }
 
