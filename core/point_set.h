@@ -75,6 +75,17 @@ class PointSet {
   std::uint32_t first_ = 0;
 };
 
+/// What an eye sample needs points for, at each surface on its way.
+enum class PixelUse : std::uint64_t {
+  lights,         // places on lights
+  light_choice,   // which lights
+  gather,         // directions of gather rays
+  glossy_lights,  // as above, for lobes that reflect or refract like a mirror, but not quite
+  glossy_light_choice,
+  specular_lobe,  // which of such lobes the path follows
+  specular_direction
+};
+
 /// Where a pixel's eye sample stands in the pixel's sequences.
 class PixelSequence {
  public:
@@ -84,9 +95,12 @@ class PixelSequence {
       : key_(hash64(hash64(hash64(seed) ^ static_cast<std::uint64_t>(Stream::sequence)) ^ pixel)),
         number_(static_cast<std::uint32_t>(number)) {}
 
-  /// The next `n` points for one of its uses, as many in every sample.
-  PointSet points(std::uint64_t use, int n) const {
-    return {hash64(key_ ^ use), number_ * static_cast<std::uint32_t>(n)};
+  /// The next `n` points for one of its uses, as many in every sample, at the path's surface that
+  /// is `segments` away from the eye.
+  PointSet points(PixelUse use, int segments, int n) const {
+    const std::uint64_t at = static_cast<std::uint64_t>(segments) << 8;
+    return {hash64(key_ ^ (at | static_cast<std::uint64_t>(use))),
+            number_ * static_cast<std::uint32_t>(n)};
   }
 
  private:

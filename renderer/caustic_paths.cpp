@@ -50,8 +50,8 @@ RadianceMap trial_map(const Scene& scene, const PhotonSource& source, PhotonKind
   return RadianceMap(std::move(map), estimator, bandwidth);
 }
 
-/// (caustics / all light)^2 of what a random ray from the eye sees: of the mean of several paths, as
-/// one that misses all other light would see a caustic alone.
+/// (caustics / all light)^2 of what a random ray from the eye sees: of the mean of several paths,
+/// as one that misses all other light would see a caustic alone.
 double share2(const Scene& scene, const LightSampler& lights, const FinalGather& gather,
               std::uint64_t number, std::uint64_t seed) {
   Tracer tracer(scene, Rng(seed, Stream::trial, 0, number));

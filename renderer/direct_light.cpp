@@ -22,14 +22,14 @@ Receiver receiver(const Scattering& at) {
 }
 
 Rgb sample_lights(Tracer& tracer, const LightSampler& lights, const Scattering& at,
-                  const Receiver& lit, const DirectStrategy& strategy, const PointSet& points) {
+                  const Receiver& lit, const DirectStrategy& strategy, const LightPoints& points) {
   if (lights.empty() || strategy.max_crossings < 0) return Rgb(0);
   Rgb total(0);
   const auto n = static_cast<float>(strategy.light_samples);
   for (int i = 0; i < strategy.light_samples; ++i) {
-    const float u_light = (static_cast<float>(i) + tracer.rng.uniform()) / n;
+    const float u_light = (static_cast<float>(i) + points.choice) / n;
     const LightSampler::Choice choice = lights.sample(lit, std::min(kOneMinusEpsilon, u_light));
-    total += sample_light(tracer, choice, points[i], at, strategy);
+    total += sample_light(tracer, choice, points.places[i], at, strategy);
   }
   return total / n;
 }

@@ -20,10 +20,20 @@ struct DirectStrategy {
 /// the other side of the shading normal scatters nothing (core/scattering.h).
 Receiver receiver(const Scattering& at);
 
+/// What `n` light samples are drawn with: the places on lights, and where in its n-th part of all
+/// lights each chooses, the same for all of them.
+struct LightPoints {
+  LightPoints(int n, Rng& rng) : places(n, rng), choice(rng.uniform()) {}
+  LightPoints(PointSet places_, PointSet choices) : places(places_), choice(choices[0].x) {}
+
+  PointSet places;
+  float choice;
+};
+
 /// Next-event estimation at `at`: radiance towards at.wo(), the share of it that the heuristic
-/// gives this technique. `lit` is receiver(at). `points`: one for each light sample.
+/// gives this technique. `lit` is receiver(at). `points`: for so many light samples.
 Rgb sample_lights(Tracer& tracer, const LightSampler& lights, const Scattering& at,
-                  const Receiver& lit, const DirectStrategy& strategy, const PointSet& points);
+                  const Receiver& lit, const DirectStrategy& strategy, const LightPoints& points);
 
 /// What one choice of a light brings, with `u` for the place on it, before dividing by the number
 /// of samples: its mean is that of sample_lights.

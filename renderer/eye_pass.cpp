@@ -8,11 +8,22 @@ namespace octolux {
 namespace {
 
 /// Direct light by the non-delta specular lobes of `at`: L S* E found from the light's side.
-Rgb near_specular_direct(Tracer& tracer, const LightSampler& lights, const Scattering& at,
-                         int max_crossings) {
+Rgb glossy_direct(Tracer& tracer, const LightSampler& lights, const Scattering& at, int samples,
+                  int segments, int max_crossings) {
   if (!at.bsdf().has(Lobes::near_specular)) return Rgb(0);
-  const DirectStrategy strategy{Lobes::near_specular, Lobes::specular, 1, 1, max_crossings};
-  return sample_lights(tracer, lights, at, receiver(at), strategy, {1, tracer.rng});
+  const DirectStrategy strategy{Lobes::near_specular, Lobes::specular, samples, 1, max_crossings};
+  return sample_lights(tracer, lights, at, receiver(at), strategy,
+                       {tracer.sequence.points(PixelUse::glossy_lights, segments, samples),
+                        tracer.sequence.points(PixelUse::glossy_light_choice, segments, 1)});
+}
+
+/// Draws among the specular lobes of `at`. The choices of a pixel, reflected or refracted above
+/// all, follow its own sequence, so that it sees as much of each as it should.
+std::optional<BsdfSample> sample_specular(Tracer& tracer, const Scattering& at, int segments) {
+  const PixelSequence& sequence = tracer.sequence;
+  const float u_lobe = sequence.points(PixelUse::specular_lobe, segments, 1)[0].x;
+  const Vec2 u = sequence.points(PixelUse::specular_direction, segments, 1)[0];
+  return at.sample(u_lobe, u, Lobes::specular);
 }
 
 }  // namespace
@@ -45,15 +56,16 @@ EyeSample trace_eye_path(Tracer& tracer, const LightSampler& lights, const Final
       out.indirect += beta * leaving.indirect;
     }
     if (!hit->bsdf->has(Lobes::specular)) break;
-    out.direct += beta * near_specular_direct(tracer, lights, at, max_segments - segments - 1);
-    const std::optional<BsdfSample> sample = sample_lobes(tracer.rng, at, Lobes::specular);
+    out.direct += beta * glossy_direct(tracer, lights, at, gather.light_samples(), segments,
+                                       max_segments - segments - 1);
+    const std::optional<BsdfSample> sample = sample_specular(tracer, at, segments);
     if (!sample) break;
     beta *= sample->weight;
     eta *= sample->eta;
     if (bounces >= kSafeBounces && !survives(tracer.rng, beta, survival(beta, eta))) break;
     ray = at.spawn(sample->wi);
     arrival = {receiver(at), sample->pdf_w, 1,
-               sample->lobe == Lobes::near_specular && !scene.lights.empty() ? 1 : 0};
+               sample->lobe == Lobes::near_specular ? gather.light_samples() : 0};
   }
   return out;
 }

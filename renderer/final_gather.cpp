@@ -41,10 +41,15 @@ GatherPoint FinalGather::gather_point(Tracer& tracer, const Scattering& at, int 
 
 /// What the eye sees gathers along the pixel's own sequence, so that its passes complement each
 /// other; what lies behind is met anew in every pass.
-PointSet FinalGather::points(Tracer& tracer, const Level& level, Use use, int n) const {
+PointSet FinalGather::gather_points(Tracer& tracer, const Level& level) const {
+  if (level.retraces > 0) return {level.rays, tracer.rng};
+  return tracer.sequence.points(PixelUse::gather, level.segments, level.rays);
+}
+
+LightPoints FinalGather::light_points(Tracer& tracer, const Level& level, int n) const {
   if (level.retraces > 0) return {n, tracer.rng};
-  const auto surface = static_cast<std::uint64_t>(level.segments);
-  return tracer.sequence.points(2 * surface + (use == Use::gather ? 1 : 0), n);
+  return {tracer.sequence.points(PixelUse::lights, level.segments, n),
+          tracer.sequence.points(PixelUse::light_choice, level.segments, 1)};
 }
 
 SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at, int segments) const {
@@ -64,8 +69,8 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
                                 remaining(level.segments) - 1};
   Receiver lit = receiver(at);
   lit.learned = learned_.lights.at(lit.position, at.facing_normal());
-  out.direct = sample_lights(tracer, lights_, at, lit, strategy,
-                             points(tracer, level, Use::lights, light_samples));
+  out.direct =
+      sample_lights(tracer, lights_, at, lit, strategy, light_points(tracer, level, light_samples));
 
   const GatherPoint point = gather_point(tracer, at, level.segments);
   const float caustic_chance = level.retraces > 0 ? kCausticChance : 1;
@@ -83,7 +88,7 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
     guide = learned_.guides.find(at.point().position, at.facing_normal());
     next.read_distance = static_cast<float>(config_.eye.retrace) * around->bandwidth;
   }
-  const PointSet u = points(tracer, level, Use::gather, level.rays);
+  const PointSet u = gather_points(tracer, level);
   const GatherDirections directions(at, {around->guide, guide}, level.rays, u);
   for (int i = 0; i < level.rays; ++i) {
     std::optional<GatherDirection> chosen = directions.draw(i, tracer.rng);

@@ -42,6 +42,9 @@ class FinalGather {
   /// Smooth-lobe radiance leaving `at`, which the eye path reached over `segments` segments.
   SplitRadiance radiance(Tracer& tracer, const Scattering& at, int segments) const;
 
+  /// Light samples at a point; none if nothing emits.
+  int light_samples() const { return light_samples_; }
+
  private:
   struct Level {
     int segments;         // from the eye to this point
@@ -52,8 +55,8 @@ class FinalGather {
   SplitRadiance radiance(Tracer& tracer, const Scattering& at, const Level& level) const;
   Rgb follow(Tracer& tracer, Ray ray, const Level& level, Arrival arrival) const;
   Rgb look_up(Tracer& tracer, const Scattering& at, int segments) const;
-  enum class Use { lights, gather };
-  PointSet points(Tracer& tracer, const Level& level, Use use, int n) const;
+  PointSet gather_points(Tracer& tracer, const Level& level) const;
+  LightPoints light_points(Tracer& tracer, const Level& level, int n) const;
   GatherPoint gather_point(Tracer& tracer, const Scattering& at, int segments) const;
   int remaining(int segments) const;
 

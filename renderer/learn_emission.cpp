@@ -15,8 +15,8 @@ namespace octolux {
 namespace {
 
 constexpr std::int64_t kChunk = 1024;  // paths
-/// Trials of all rounds: so many times the global photon paths of a pass, within limits. Each round has as many
-/// as all before, the first a 32nd part.
+/// Trials of all rounds: so many times the global photon paths of a pass, within limits. Each round
+/// has as many as all before, the first a 32nd part.
 constexpr std::int64_t kTrialsPerPhoton = 8;
 constexpr std::int64_t kMostTrials = 1 << 19, kFewestTrials = 1 << 12;
 constexpr int kRounds = 6;
@@ -200,9 +200,9 @@ EmissionDensity learn(const Scene& scene, const LightSampler& lights, PhotonKind
 
   Learner learner(scene, lights, kind, std::move(cells), config.seed);
   learner.start_from(first);
-  std::int64_t count =
-      std::clamp(kTrialsPerPhoton * std::min(config.photons.global, kMostTrials), kFewestTrials, kMostTrials) >>
-      (kRounds - 1);
+  std::int64_t count = std::clamp(kTrialsPerPhoton * std::min(config.photons.global, kMostTrials),
+                                  kFewestTrials, kMostTrials) >>
+                       (kRounds - 1);
   learner.round(count);
   for (int r = 1; r < kRounds; ++r) {
     // With portals, what comes another way is bright and rare, and a first look does not see it.

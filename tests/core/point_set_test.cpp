@@ -30,7 +30,7 @@ TEST(PixelSequence, EveryAlignedBlockHasOnePointInEachElementaryInterval) {
       const int size = 1 << digits;
       for (int block = 0; block < 4; ++block) {
         const PixelSequence sequence(key, 3, static_cast<std::uint64_t>(block));
-        const PointSet points = sequence.points(1, size);
+        const PointSet points = sequence.points(PixelUse::gather, 1, size);
         for (int across = 0; across <= digits; ++across) {
           const int columns = 1 << across;
           const int rows = size / columns;
@@ -52,7 +52,7 @@ TEST(PixelSequence, EachPointIsUniform) {
   for (const int i : {0, 1, 5, 1000}) {
     std::vector<double> counts(kSide * kSide);
     for (std::uint64_t pixel = 0; pixel < kKeys; ++pixel) {
-      ++counts[cell(PixelSequence(1, pixel, 0).points(2, 8)[i])];
+      ++counts[cell(PixelSequence(1, pixel, 0).points(PixelUse::gather, 2, 8)[i])];
     }
     EXPECT_GT(uniform_p(counts, kKeys), sidak(kAlpha, 4)) << "point " << i;
   }
@@ -63,9 +63,9 @@ TEST(PixelSequence, UsesAndPixelsArePairedAsIfByChance) {
     std::vector<double> uses(kSide * kSide), pixels(kSide * kSide);
     for (std::uint64_t pixel = 0; pixel < kKeys; ++pixel) {
       const PixelSequence here(1, pixel, 3);
-      const Vec2 a = here.points(0, 1)[0];
-      const Vec2 b = here.points(1, 1)[0];
-      const Vec2 c = PixelSequence(1, pixel + 1, 3).points(0, 1)[0];
+      const Vec2 a = here.points(PixelUse::gather, 0, 1)[0];
+      const Vec2 b = here.points(PixelUse::specular_lobe, 0, 1)[0];
+      const Vec2 c = PixelSequence(1, pixel + 1, 3).points(PixelUse::gather, 0, 1)[0];
       const float first = pair / 2 == 0 ? a.x : a.y;
       ++uses[cell(first) * kSide + cell(pair % 2 == 0 ? b.x : b.y)];
       ++pixels[cell(first) * kSide + cell(pair % 2 == 0 ? c.x : c.y)];
@@ -81,17 +81,18 @@ TEST(PixelSequence, OneSequenceIsNotAFunctionOfAnother) {
   std::vector<double> counts(kSide * kSide);
   for (std::uint64_t number = 0; number < kKeys; ++number) {
     const PixelSequence sequence(1, 9, number);
-    const Vec2 a = sequence.points(0, 1)[0];
-    const Vec2 b = sequence.points(1, 1)[0];
+    const Vec2 a = sequence.points(PixelUse::gather, 0, 1)[0];
+    const Vec2 b = sequence.points(PixelUse::gather, 1, 1)[0];
     ++counts[cell(a.x) * kSide + cell(b.x)];
   }
   for (const double count : counts) EXPECT_NEAR(count, kKeys / 64.0, kKeys / 64.0 / 2);
 }
 
 TEST(PointSet, GoesOnWhereTheSampleBeforeEnded) {
-  const PointSet both = PixelSequence(4, 2, 0).points(5, 16);
+  const PointSet both = PixelSequence(4, 2, 0).points(PixelUse::gather, 5, 16);
   for (int sample = 0; sample < 2; ++sample) {
-    const PointSet own = PixelSequence(4, 2, static_cast<std::uint64_t>(sample)).points(5, 8);
+    const PointSet own =
+        PixelSequence(4, 2, static_cast<std::uint64_t>(sample)).points(PixelUse::gather, 5, 8);
     for (int i = 0; i < 8; ++i) {
       EXPECT_EQ(own[i].x, both[8 * sample + i].x);
       EXPECT_EQ(own[i].y, both[8 * sample + i].y);

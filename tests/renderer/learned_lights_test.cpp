@@ -182,8 +182,7 @@ TEST(LearnedLights, TheMeanIsTheSameAndTheNoiseLess) {
     Result result;
     look(*scene, learned, 40'000, [&](Tracer& tracer, const Scattering& at, const Receiver& lit) {
       const auto sample = [&] {
-        return luminance(
-            sample_lights(tracer, lights, at, lit, kOneSample, PointSet{1, tracer.rng}));
+        return luminance(sample_lights(tracer, lights, at, lit, kOneSample, {1, tracer.rng}));
       };
       const double a = sample(), b = sample();
       result.mean.add(a);
