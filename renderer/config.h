@@ -29,7 +29,7 @@ struct EyeConfig {
   double retrace = 2;         // gather rays shorter than this many bandwidths go on
   bool learn = true;          // learn before the first pass where light comes from and is seen
   bool seen = true;           // gathered look-ups count only photons that they see (seen_photons.h)
-  double reuse = 0.5;         // how far gather rays share irradiance (record_sites.h); 0: never
+  double reuse = 0.9;         // how far gather rays share irradiance (record_sites.h); 0: never
 };
 
 /// The first that is reached stops the render, at the end of a pass. 0: not set.

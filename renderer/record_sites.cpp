@@ -58,7 +58,7 @@ RecordSites::RecordSites(const std::vector<RecordSite>& sites, const std::vector
   }
   photons_ = std::move(sorted.tree);
 
-  const float share = static_cast<float>(reuse) * bandwidth.shrink;
+  const float share = static_cast<float>(reuse) * std::pow(bandwidth.shrink, 1.5f);
   scale_ = share * std::sqrt(static_cast<float>(neighbours) / kCounted);
   max_reach_ = share * bandwidth.max_radius;
 }

@@ -6,8 +6,9 @@
 // estimate. A record at a photon of the map itself would find that photon at distance 0, and one
 // found by leaving it out would know that no other is between it and the point that asks: both are
 // biased by about 1/n at every number of passes. For the same reason, which record serves a point,
-// and whether it is near enough, is decided without the map. "Near enough" shrinks with the
-// bandwidth from pass to pass, so a render converges to the same picture with records and without.
+// and whether it is near enough, is decided without the map. "Near enough" shrinks from pass to
+// pass, faster than the bandwidth, so a render converges to the same picture with records and
+// without, and sharing, which brings most while the noise is high, does not outlast it as a bias.
 #pragma once
 
 #include <cstdint>
@@ -40,9 +41,9 @@ class RecordSites {
   static constexpr double kBytesPerPhoton = sizeof(Vec3) + PhotonTree::kBytesPerItem;
 
   RecordSites() = default;
-  /// One record for each site. Each serves points within the share `reuse` of the bandwidth that a
-  /// look-up for `neighbours` of the photons would have. Sites and photons that are not finite are
-  /// left out.
+  /// One record for each site. Each serves points within a share of the radius that holds
+  /// `neighbours` of the photons: reuse s^1.5, s being the bandwidth's shrink factor. Sites and
+  /// photons that are not finite are left out.
   RecordSites(const std::vector<RecordSite>& sites, const std::vector<Photon>& photons,
               const Bandwidth& bandwidth, int neighbours, double reuse);
 

@@ -72,7 +72,7 @@ TEST(ThinWallSeen, IsBlackToTheLastBitWithEveryKernel) {
   for (const char* thickness : {"0.1", "0.02", "0.001"}) {
     const auto room = dark_room(thickness, 64);
     for (const std::string& kernel : kernel_names()) {
-      for (const double reuse : {0.0, 0.5}) {
+      for (const double reuse : {0.0, EyeConfig{}.reuse}) {
         const RenderConfig config = wide_look_ups(kernel.c_str(), true, reuse, 1, true);
         EXPECT_EQ(lit_pixels(*room, config), 0) << kernel << ", reuse " << reuse;
       }
