@@ -16,7 +16,7 @@ namespace {
 
 constexpr Vec3 kUp{0, 0, 1};
 constexpr int kNeighbours = 20;
-constexpr double kReuse = 0.5;
+constexpr double kReuse = EyeConfig{}.reuse;
 
 Rng rng_of(int use, int i) {
   return Rng(1, Stream::test, 810 + static_cast<std::uint64_t>(use), static_cast<std::uint64_t>(i));
@@ -128,13 +128,13 @@ TEST_F(Records, ReachAsFarAsThePhotonsAroundTell) {
         if (p.normal.z > 0) distances.push_back(length(p.position - sites.point(record).position));
       }
       std::sort(distances.begin(), distances.end());
-      EXPECT_FLOAT_EQ(sites.reach(record),
-                      static_cast<float>(kReuse) * shrink * std::sqrt(5.0f) * distances[4]);
+      EXPECT_FLOAT_EQ(sites.reach(record), static_cast<float>(kReuse) * std::pow(shrink, 1.5f) *
+                                               std::sqrt(5.0f) * distances[4]);
     }
   }
   // Of one alone nobody knows.
   const RecordSites one(sites_at({photons[1]}), {photons[1]}, {2, 0.5f}, kNeighbours, kReuse);
-  EXPECT_FLOAT_EQ(one.reach(0), static_cast<float>(kReuse) * 0.5f * 2);
+  EXPECT_FLOAT_EQ(one.reach(0), static_cast<float>(kReuse) * std::pow(0.5f, 1.5f) * 2);
 }
 
 TEST_F(Records, ReachNoLessWhereTheyLieClose) {

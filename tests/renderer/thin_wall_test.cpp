@@ -42,7 +42,8 @@ struct Mode {
   bool gather;
   double reuse;
 };
-constexpr Mode kModes[] = {{"Direct", false, 0}, {"Gathered", true, 0}, {"Shared", true, 0.5}};
+constexpr Mode kModes[] = {
+    {"Direct", false, 0}, {"Gathered", true, 0}, {"Shared", true, EyeConfig{}.reuse}};
 
 class ThinWall : public testing::TestWithParam<Mode> {
  protected:
