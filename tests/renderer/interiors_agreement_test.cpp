@@ -78,9 +78,11 @@ TEST_P(InteriorsAgreementSlow, PerPixelAndInTheMean) {
   EXPECT_LE(apart, static_cast<int>(0.0025 * values));
 }
 
+// With 64 passes of living-room, pixels whose light is rare state a third of the spread that they
+// have between seeds.
 INSTANTIATE_TEST_SUITE_P(Scenes, InteriorsAgreementSlow,
                          testing::Values(Case{"veach-ajar/scene.xml", 8192, 64, 100'000},
-                                         Case{"living-room/scene.xml", 6144, 64, 100'000},
+                                         Case{"living-room/scene.xml", 6144, 128, 100'000},
                                          Case{"aalto-door/scene.xml", 16384, 128, 100'000}),
                          [](const testing::TestParamInfo<Case>& param) {
                            return scene_name(param.param.scene);
