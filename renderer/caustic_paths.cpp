@@ -15,7 +15,7 @@ namespace octolux {
 namespace {
 
 // Chosen by error at equal time, tools/bench/README.md.
-constexpr double kPathsPerShare = 60;  // sqrt(B / (A t)) of caustic_paths.h
+constexpr double kPathsPerShare = 40;  // sqrt(B / (A t)) of caustic_paths.h
 constexpr double kFewest = 0.25, kMost = 16;
 
 constexpr std::int64_t kGlobalPaths = 1 << 15, kCausticPaths = 1 << 16;  // of the trial
@@ -28,8 +28,6 @@ RenderConfig trial_config(const RenderConfig& config) {
   RenderConfig trial;
   trial.seed = config.seed;
   trial.photons = config.photons;
-  trial.photons.global = kGlobalPaths;
-  trial.photons.caustic = kCausticPaths;
   trial.eye.reuse = 0;
   trial.eye.gather_rays = 4;
   trial.eye.light_samples = 2;
@@ -39,14 +37,11 @@ RenderConfig trial_config(const RenderConfig& config) {
 
 RadianceMap trial_map(const Scene& scene, const PhotonSource& source, PhotonKind kind,
                       const RenderConfig& config, const Estimator& estimator) {
-  const bool global = kind == PhotonKind::global;
+  const std::int64_t paths = kind == PhotonKind::global ? kGlobalPaths : kCausticPaths;
   // Of a pass that no render comes to.
-  const PassKey key{config.seed, ~std::uint64_t{0}};
-  const PhotonConfig& p = config.photons;
-  PhotonMap map(trace_photons(scene, source, kind, global ? p.global : p.caustic, key).photons);
-  const Bandwidth bandwidth =
-      look_up_bandwidth(scene, map.size(), config.estimator.neighbours,
-                        global ? p.global_radius : p.caustic_radius, p.alpha, 0);
+  PhotonMap map(
+      trace_photons(scene, source, kind, paths, {config.seed, ~std::uint64_t{0}}).photons);
+  const Bandwidth bandwidth = look_up_bandwidth(scene, config, kind, map.size(), 0);
   return RadianceMap(std::move(map), estimator, bandwidth);
 }
 

@@ -20,8 +20,8 @@ struct DirectStrategy {
 /// the other side of the shading normal scatters nothing (core/scattering.h).
 Receiver receiver(const Scattering& at);
 
-/// What `n` light samples are drawn with: the places on lights, and where in its n-th part of all
-/// lights each chooses, the same for all of them.
+/// What n light samples are drawn with: sample i chooses its light at (i + choice) / n of all, and
+/// its place there by places[i].
 struct LightPoints {
   LightPoints(int n, Rng& rng) : places(n, rng), choice(rng.uniform()) {}
   LightPoints(PointSet places_, PointSet choices) : places(places_), choice(choices[0].x) {}

@@ -46,7 +46,7 @@ PhotonMemory foresee_photons(const Scene& scene, const LightSampler& lights, con
   if (gather && config.eye.reuse > 0) {
     const int last = std::max(1, pass_limit(config)) - 1;
     const Bandwidth bandwidth =
-        look_up_bandwidth(scene, 1, 1, 1, config.photons.alpha, static_cast<std::uint64_t>(last));
+        look_up_bandwidth(scene, config, PhotonKind::global, 1, static_cast<std::uint64_t>(last));
     reach = per_path * static_cast<double>(record_paths(config.photons.global, bandwidth));
     sites = most_record_sites(scene, config.eye, reach);
   }

@@ -143,13 +143,16 @@ PhotonPass trace_photons(const Scene& scene, const LightSampler& lights, PhotonK
   return trace_photons(scene, {lights, EmissionDensity()}, kind, count, key);
 }
 
-Bandwidth look_up_bandwidth(const Scene& scene, std::size_t photons, int neighbours, double radius,
-                            double alpha, std::uint64_t pass) {
-  Bandwidth bandwidth;
+Bandwidth look_up_bandwidth(const Scene& scene, const RenderConfig& config, PhotonKind kind,
+                            std::size_t photons, std::uint64_t pass) {
+  const double alpha = config.photons.alpha;
+  const double radius =
+      kind == PhotonKind::caustic ? config.photons.caustic_radius : config.photons.global_radius;
   const double per_area = std::max(1.0, static_cast<double>(photons)) / scene.total_area;
-  bandwidth.max_radius =
-      static_cast<float>(std::min(radius * std::sqrt(neighbours / (std::numbers::pi * per_area)),
-                                  2.0 * static_cast<double>(scene.bounds.radius())));
+  const double mean_radius = std::sqrt(config.estimator.neighbours / (std::numbers::pi * per_area));
+  Bandwidth bandwidth;
+  bandwidth.max_radius = static_cast<float>(
+      std::min(radius * mean_radius, 2.0 * static_cast<double>(scene.bounds.radius())));
   double shrink2 = 1;
   for (std::uint64_t k = 1; k <= pass; ++k) {
     shrink2 *= (static_cast<double>(k) + alpha) / (static_cast<double>(k) + 1);

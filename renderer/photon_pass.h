@@ -50,10 +50,11 @@ EmittedPhoton emit_photon(const LightSampler& lights, const EmissionPoint& at, f
 void trace_photon(Tracer& tracer, const EmittedPhoton& start, PhotonKind kind,
                   std::vector<Photon>& photons);
 
-/// Bandwidth of the look-ups in a map of `photons` photons: a limit of `radius` times the mean
-/// radius of `neighbours` photons on the scene's surfaces, and the pass's shrink factor s with
-/// s_1 = 1, s^2_{k+1} / s^2_k = (k + alpha) / (k + 1) (Knaus & Zwicker 2011, eq. 10).
-Bandwidth look_up_bandwidth(const Scene& scene, std::size_t photons, int neighbours, double radius,
-                            double alpha, std::uint64_t pass);
+/// Bandwidth of the look-ups in a map of `photons` photons: a limit of photons.global_radius or
+/// caustic_radius times the mean radius of a look-up's photons on the scene's surfaces, and the
+/// pass's shrink factor s with s_1 = 1, s^2_{k+1} / s^2_k = (k + alpha) / (k + 1) (Knaus & Zwicker
+/// 2011, eq. 10).
+Bandwidth look_up_bandwidth(const Scene& scene, const RenderConfig& config, PhotonKind kind,
+                            std::size_t photons, std::uint64_t pass);
 
 }  // namespace octolux

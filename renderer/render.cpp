@@ -71,9 +71,7 @@ RadianceMap make_map(const Job& job, PhotonKind kind, PassKey key, Progress& pro
       static_cast<std::int64_t>(map.size());
   progress.rejected_photons += static_cast<std::int64_t>(map.rejected());
   progress.photon_bytes += static_cast<std::int64_t>(map.memory());
-  const Bandwidth bandwidth = look_up_bandwidth(
-      job.scene, map.size(), job.config.estimator.neighbours,
-      global ? photons.global_radius : photons.caustic_radius, photons.alpha, key.pass);
+  const Bandwidth bandwidth = look_up_bandwidth(job.scene, job.config, kind, map.size(), key.pass);
   progress.timing.maps += watch.lap();
   return RadianceMap(std::move(map), *job.estimator, bandwidth);
 }

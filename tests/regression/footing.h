@@ -38,10 +38,7 @@ inline Footings footings(const Scene& scene, const RenderConfig& config, PhotonK
   const PhotonMap map(trace_photons(scene, LightSampler(scene), kind,
                                     global ? photons.global : photons.caustic, {1, 0})
                           .photons);
-  const double radius = global ? photons.global_radius : photons.caustic_radius;
-  const float limit =
-      look_up_bandwidth(scene, map.size(), config.estimator.neighbours, radius, photons.alpha, 0)
-          .max_radius;
+  const float limit = look_up_bandwidth(scene, config, kind, map.size(), 0).max_radius;
   const FilmSize& film = scene.film;
   const float tangent = std::tan(scene.camera_config.fov_x_degrees * kPi / 360);
   Footings out;

@@ -80,8 +80,7 @@ RadianceMap widest_map(const Scene& scene, const RenderConfig& config, const Est
       trace_photons(scene, lights, PhotonKind::global, config.photons.global, {config.seed, 0});
   PhotonMap photons(std::move(traced.photons));
   const Bandwidth bandwidth =
-      look_up_bandwidth(scene, photons.size(), config.estimator.neighbours,
-                        config.photons.global_radius, config.photons.alpha, 0);
+      look_up_bandwidth(scene, config, PhotonKind::global, photons.size(), 0);
   return RadianceMap(std::move(photons), estimator, bandwidth);
 }
 
