@@ -52,5 +52,26 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"two-rooms/two-rooms.xml", {}, 48, 32, 16384, 256, 200'000}),
     [](const testing::TestParamInfo<Case>& param) { return scene_name(param.param.scene); });
 
+/// A small and a large lamp mirrored in a plate that is not quite smooth: the one is found by its
+/// light samples, the other by the plate's lobe, and their shares must add up to one.
+TEST(Agreement, LampsInAGlossyPlate) {
+  const auto lamp = [](const char* size, const char* place) {
+    return std::string("<shape type='rectangle'><transform name='to_world'><scale value='") + size +
+           "'/><rotate y='1' angle='180'/><translate " + place +
+           "/></transform><emitter type='area'><rgb name='radiance' value='1'/></emitter></shape>";
+  };
+  const auto scene = scene_from(
+      "<scene version='3.0.0'>" + sensor_xml("0, 0, 1", "0, 0, 0", 60, 16, 16) +
+      "<shape type='rectangle'><bsdf type='roughconductor'><string name='material' value='none'/>"
+      "<float name='alpha' value='0.15'/></bsdf></shape>" +
+      lamp("0.1", "x='-0.5' z='2'") + lamp("0.6", "x='0.7' z='2'") + "</scene>");
+  const Running path = pass_means(*scene, path_config(1024));
+  const Running photon = pass_means(*scene, photon_config(256, 1'000));
+  const double sigma = std::sqrt(path.variance_of_mean() + photon.variance_of_mean());
+  std::printf("  photon / path %.4f +- %.4f\n", photon.mean() / path.mean(), sigma / path.mean());
+  EXPECT_LT(sigma, 0.005 * path.mean());
+  EXPECT_GT(z_test_p((photon.mean() - path.mean()) / sigma), kAlpha);
+}
+
 }  // namespace
 }  // namespace octolux::test
