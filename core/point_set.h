@@ -83,7 +83,8 @@ enum class PixelUse : std::uint64_t {
   glossy_lights,  // as above, for lobes that reflect or refract like a mirror, but not quite
   glossy_light_choice,
   specular_lobe,  // which of such lobes the path follows
-  specular_direction
+  specular_direction,
+  lens  // where the path leaves the camera's
 };
 
 /// Where a pixel's eye sample stands in the pixel's sequences.

@@ -27,6 +27,21 @@ std::unique_ptr<Scene> lamp_in_glass(int size) {
       <emitter type='area'><rgb name='radiance' value='1'/></emitter></shape></scene>)");
 }
 
+/// The edge of a lamp, far out of focus: every pixel sees it through half of the lens.
+std::unique_ptr<Scene> lamp_out_of_focus(int size) {
+  const std::string pixels = std::to_string(size);
+  return scene_from(R"(<scene version='3.0.0'>
+    <sensor type='thinlens'>
+      <float name='fov' value='0.01'/><float name='near_clip' value='0.0001'/>
+      <float name='aperture_radius' value='0.5'/><float name='focus_distance' value='1000'/>
+      <transform name='to_world'><lookat origin='0, 0, 1' target='0, 0, 0' up='0, 1, 0'/></transform>
+      <film type='hdrfilm'><integer name='width' value=')" +
+                    pixels + "'/><integer name='height' value='" + pixels + R"('/>
+        <rfilter type='box'/></film></sensor>
+    <shape type='rectangle'><transform name='to_world'><translate x='1'/></transform>
+      <emitter type='area'><rgb name='radiance' value='1'/></emitter></shape></scene>)");
+}
+
 /// Variance between pictures by different seeds, and what they state.
 struct Variances {
   Running observed, stated;
@@ -51,6 +66,12 @@ TEST(PixelSequences, PassesErrLessTogetherThanIndependentOnesWould) {
 /// Of 16 samples in sequence as many as should be, or one more or less, are reflected.
 TEST(PixelSequences, ReflectionIsSeenAsOftenAsItShould) {
   const Variances v = variances(*lamp_in_glass(12));
+  EXPECT_GT(v.stated.mean(), 0);
+  EXPECT_LT(v.observed.mean() + 4 * v.observed.standard_error(), 0.25 * v.stated.mean());
+}
+
+TEST(PixelSequences, LensIsSeenThroughEvenly) {
+  const Variances v = variances(*lamp_out_of_focus(12));
   EXPECT_GT(v.stated.mean(), 0);
   EXPECT_LT(v.observed.mean() + 4 * v.observed.standard_error(), 0.25 * v.stated.mean());
 }
