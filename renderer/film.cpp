@@ -112,8 +112,9 @@ double Film::relative_error() const {
   double error = 0;
   for (const Pixel& pixel : pixels_) {
     const double sum = y_sum(pixel);
-    error +=
-        std::sqrt(variance_of_mean(sum, pixel.luminance_square, passes_)) / (sum / passes_ + floor);
+    const double deviation = std::sqrt(variance_of_mean(sum, pixel.luminance_square, passes_));
+    // Filters with negative lobes make pixels below 0.
+    error += deviation / (std::max(0.0, sum / passes_) + floor);
   }
   return error / static_cast<double>(pixels_.size());
 }

@@ -24,10 +24,28 @@ Filter gaussian(Properties& p) {
   return {.kind = Filter::Kind::gaussian, .radius = 4 * stddev, .stddev = stddev};
 }
 
+Filter mitchell(Properties& p) {
+  constexpr float kRecommended = 1.0f / 3;
+  return {.kind = Filter::Kind::mitchell,
+          .radius = 2,
+          .b = p.number("b").value_or(kRecommended),
+          .c = p.number("c").value_or(kRecommended)};
+}
+
+Filter catmull_rom(Properties&) {
+  return {.kind = Filter::Kind::mitchell, .radius = 2, .b = 0, .c = 0.5f};
+}
+
+Filter lanczos(Properties& p) {
+  constexpr int kMostLobes = 16;
+  const int lobes = p.integer("lobes").value_or(3);
+  if (lobes < 1 || lobes > kMostLobes) p.fail("lobes", "'lobes' must lie between 1 and 16");
+  return {.kind = Filter::Kind::lanczos, .radius = static_cast<float>(lobes)};
+}
+
 constexpr Plugin<Filter (*)(Properties&)> kFilters[] = {
-    {"box", box},
-    {"tent", tent},
-    {"gaussian", gaussian},
+    {"box", box},           {"tent", tent},       {"gaussian", gaussian},
+    {"mitchell", mitchell}, {"lanczos", lanczos}, {"catmullrom", catmull_rom},
 };
 
 // ---- film
@@ -79,6 +97,7 @@ void film(Properties& p, SceneBuilder& b) {
 constexpr Plugin<void (*)(Properties&, SceneBuilder&)> kFilms[] = {
     {"hdrfilm", film},
     {"ldrfilm", film},
+    {"tiledhdrfilm", film},
 };
 
 void read_film(Properties& sensor, SceneBuilder& b) {

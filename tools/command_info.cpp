@@ -111,10 +111,25 @@ void print_lights(const Scene& scene) {
   }
 }
 
+const char* name_of(const Filter& filter) {
+  switch (filter.kind) {
+    case Filter::Kind::box:
+      return "box";
+    case Filter::Kind::tent:
+      return "tent";
+    case Filter::Kind::gaussian:
+      return "gaussian";
+    case Filter::Kind::mitchell:
+      return "cubic";
+    case Filter::Kind::lanczos:
+      return "lanczos";
+  }
+  return "";
+}
+
 void print_camera(const Scene& scene) {
   const CameraConfig& camera = scene.camera_config;
   const FilmSize& film = scene.film;
-  const Filter& filter = scene.filter;
   fmt::print("camera     at {} towards {}, {:.6g} degrees wide\n",
              format(camera.to_world.point({0, 0, 0})), format(scene.camera.forward()),
              camera.fov_x_degrees);
@@ -123,9 +138,7 @@ void print_camera(const Scene& scene) {
     fmt::print(", crop {}x{} at {},{}", film.crop_width, film.crop_height, film.crop_x,
                film.crop_y);
   }
-  fmt::print(", {} filter\n", filter.kind == Filter::Kind::box    ? "box"
-                              : filter.kind == Filter::Kind::tent ? "tent"
-                                                                  : "gaussian");
+  fmt::print(", {} filter\n", name_of(scene.filter));
   fmt::print("max depth  {}{}\n", scene.max_depth < 0 ? "none" : fmt::format("{}", scene.max_depth),
              scene.hide_emitters ? "; emitters are hidden from the camera" : "");
 }

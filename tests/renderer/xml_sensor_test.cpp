@@ -46,6 +46,32 @@ TEST(XmlSensor, FocalLengthIsThatOfASmallFormatCamera) {
   EXPECT_FLOAT_EQ(fov_x("<string name='focal_length' value='18'/>", 300, 200), 90);
 }
 
+Filter filter_of(const std::string& rfilter) {
+  return load_text("<scene><sensor type='perspective'><film type='hdrfilm'>" + rfilter +
+                   "</film></sensor><shape type='cube'/></scene>")
+      ->filter;
+}
+
+TEST(XmlSensor, CubicAndLanczosFilters) {
+  const Filter mitchell = filter_of("<rfilter type='mitchell'/>");
+  EXPECT_EQ(mitchell.kind, Filter::Kind::mitchell);
+  EXPECT_EQ(mitchell.reach(), 2);
+  EXPECT_EQ(mitchell.b, 1.0f / 3);
+  EXPECT_EQ(mitchell.c, 1.0f / 3);
+  const Filter tuned = filter_of(
+      "<rfilter type='mitchell'><float name='B' value='0.5'/><float name='C' value='0.25'/>"
+      "</rfilter>");
+  EXPECT_EQ(tuned.b, 0.5f);
+  EXPECT_EQ(tuned.c, 0.25f);
+  const Filter catmull_rom = filter_of("<rfilter type='catmullrom'/>");
+  EXPECT_EQ(catmull_rom.kind, Filter::Kind::mitchell);
+  EXPECT_EQ(catmull_rom.b, 0);
+  EXPECT_EQ(catmull_rom.c, 0.5f);
+  EXPECT_EQ(filter_of("<rfilter type='lanczos'/>").reach(), 3);
+  EXPECT_EQ(
+      filter_of("<rfilter type='lanczos'><integer name='lobes' value='2'/></rfilter>").reach(), 2);
+}
+
 TEST(XmlSensor, DefaultsAreMitsubas) {
   const auto scene = load_text("<scene><sensor type='perspective'/><shape type='cube'/></scene>");
   EXPECT_EQ(scene->film.width, 768);
