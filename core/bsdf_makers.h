@@ -14,6 +14,14 @@ namespace octolux {
 /// Lambert, front side only (as in Mitsuba); wrap in make_two_sided for both.
 std::unique_ptr<Bsdf> make_diffuse(Color reflectance);
 
+struct RoughDiffuseConfig {
+  Color reflectance{Rgb(0.5f)};
+  Scalar alpha = 0.2f;       // root mean square slope of the facets, times sqrt(2)
+  bool qualitative = false;  // the simpler form of the model
+};
+/// Oren & Nayar's model, front side only; Mitsuba 0.6's `roughdiffuse`.
+std::unique_ptr<Bsdf> make_rough_diffuse(const RoughDiffuseConfig& config);
+
 struct DielectricConfig {
   float eta = 1.5f / 1.000277f;  // interior index / exterior index
   Rgb specular_reflectance{1, 1, 1};
@@ -145,5 +153,7 @@ std::unique_ptr<Bsdf> make_two_sided(const Bsdf& front, const Bsdf& back);
 
 /// `inner` where opaque; light passes straight on where not.
 std::unique_ptr<Bsdf> make_mask(const Bsdf& inner, Color opacity);
+/// No surface at all: light passes straight on. Mitsuba's `null`.
+std::unique_ptr<Bsdf> make_null();
 
 }  // namespace octolux

@@ -1,5 +1,5 @@
 // Cut-outs: a BSDF where a texture is opaque, nothing where it is not, a share of both in between.
-// Mitsuba's `mask`; opacity may differ between the channels.
+// Mitsuba's `mask`; opacity may differ between the channels. And nothing everywhere, its `null`.
 #include <algorithm>
 
 #include "core/bsdf_makers.h"
@@ -55,7 +55,23 @@ class Mask final : public Bsdf {
   Color opacity_;
 };
 
+class Null final : public Bsdf {
+ public:
+  Null() : Bsdf(Lobes::none, false, true) {}
+
+  Rgb f(const SurfacePoint&, Vec3, Vec3, Lobes, Carried) const override { return Rgb(0); }
+  float pdf_w(const SurfacePoint&, Vec3, Vec3, Lobes) const override { return 0; }
+  std::optional<BsdfSample> sample(const SurfacePoint&, Vec3, float, Vec2, Lobes,
+                                   Carried) const override {
+    return std::nullopt;
+  }
+  Rgb albedo(const SurfacePoint&) const override { return Rgb(0); }
+  Rgb pass_through(const SurfacePoint&, Vec3) const override { return Rgb(1); }
+};
+
 }  // namespace
+
+std::unique_ptr<Bsdf> make_null() { return std::make_unique<Null>(); }
 
 std::unique_ptr<Bsdf> make_mask(const Bsdf& inner, Color opacity) {
   return std::make_unique<Mask>(inner, opacity);

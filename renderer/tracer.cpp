@@ -19,7 +19,9 @@ std::optional<SurfaceHit> Tracer::next(Ray ray, Rgb& weight, int& segments) {
 
     const Scattering at(surface.point, bsdf, -ray.direction, Carried::radiance);
     const Rgb passed = at.pass_through();
-    const float probability = std::min(1.0f, max_component(passed));
+    // What emits must be met now and then, even if it lets everything pass.
+    const float most = surface.light ? 0.5f : 1;
+    const float probability = std::min(most, max_component(passed));
     if (!(rng.uniform() < probability)) {
       weight *= 1 / (1 - probability);
       return surface;

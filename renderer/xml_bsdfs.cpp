@@ -114,6 +114,21 @@ Made diffuse(Properties& p, SceneBuilder& b) {
   return make_diffuse(b.color(p, "reflectance", 0.5f));
 }
 
+/// 0.6 calls the reflectance as its `plastic` does, too.
+Made rough_diffuse(Properties& p, SceneBuilder& b) {
+  const char* name = p.find("diffuse_reflectance") ? "diffuse_reflectance" : "reflectance";
+  return make_rough_diffuse({.reflectance = b.color(p, name, 0.5f),
+                             .alpha = b.scalar(p, "alpha", 0.2f),
+                             .qualitative = p.boolean("use_fast_approx").value_or(false)});
+}
+
+/// A sheet of which all light that it scatters comes out on the other side.
+Made diffuse_transmitter(Properties& p, SceneBuilder& b) {
+  return make_principled_thin({.base_color = b.color(p, "transmittance", 0.5f), .diff_trans = 2});
+}
+
+Made null(Properties&, SceneBuilder&) { return make_null(); }
+
 Made dielectric(Properties& p, SceneBuilder& b) { return make_dielectric(read_dielectric(p, b)); }
 
 Made thin_dielectric(Properties& p, SceneBuilder& b) {
@@ -196,6 +211,8 @@ Made principled_thin(Properties& p, SceneBuilder& b) {
 
 constexpr Plugin<Made (*)(Properties&, SceneBuilder&)> kPlugins[] = {
     {"diffuse", diffuse},
+    {"roughdiffuse", rough_diffuse},
+    {"difftrans", diffuse_transmitter},
     {"dielectric", dielectric},
     {"thindielectric", thin_dielectric},
     {"roughdielectric", rough_dielectric},
@@ -208,6 +225,7 @@ constexpr Plugin<Made (*)(Properties&, SceneBuilder&)> kPlugins[] = {
     {"principledthin", principled_thin},
     {"twosided", make_two_sided_bsdf},
     {"mask", make_mask_bsdf},
+    {"null", null},
     {"coating", make_coating_bsdf},
     {"bumpmap", make_bump_map_bsdf},
     {"bump", make_bump_map_bsdf},

@@ -36,10 +36,12 @@ const Texture& read_texture(Properties& p, SceneBuilder& b) {
 /// The type of a BSDF below `object` that lets light through, or "".
 std::string transmitting_type(const XmlNode& object) {
   const std::string& type = object.required("type");
-  if (type.find("dielectric") != std::string::npos || type == "mask") return type;
+  if (type.find("dielectric") != std::string::npos) return type;
+  if (type == "mask" || type == "null" || type == "difftrans") return type;
   for (const XmlNode& child : object.children) {
     const std::string* name = child.attribute("name");
-    if (type == "principled" && name && parameter_name(*name) == "spec_trans") return type;
+    const std::string parameter = name ? parameter_name(*name) : "";
+    if (parameter == "spec_trans" || parameter == "diff_trans") return type;
   }
   for (const XmlNode& child : object.children) {
     if (child.object().tag != "bsdf") continue;

@@ -33,6 +33,50 @@ TEST(BsdfLobes, KindFollowsRoughness) {
   EXPECT_FALSE(make_dielectric({})->passes_light());
 }
 
+/// Oren & Nayar 1994, equations 30 to 32, for one channel.
+double oren_nayar(double sigma2, double rho, Vec3 wo, Vec3 wi) {
+  const double theta_o = std::acos(static_cast<double>(wo.z));
+  const double theta_i = std::acos(static_cast<double>(wi.z));
+  const auto azimuth = [](Vec3 w) {
+    return std::atan2(static_cast<double>(w.y), static_cast<double>(w.x));
+  };
+  const double cos_phi = std::cos(azimuth(wi) - azimuth(wo));
+  const double alpha = std::max(theta_o, theta_i), beta = std::min(theta_o, theta_i);
+  const double s = 0.45 * sigma2 / (sigma2 + 0.09);
+  const double c1 = 1 - 0.5 * sigma2 / (sigma2 + 0.33);
+  const double c2 =
+      s * (cos_phi >= 0 ? std::sin(alpha) : std::sin(alpha) - std::pow(2 * beta / M_PI, 3));
+  const double c3 = 0.125 / 0.45 * s * std::pow(4 * alpha * beta / (M_PI * M_PI), 2);
+  const double once = c1 + cos_phi * c2 * std::tan(beta) +
+                      (1 - std::abs(cos_phi)) * c3 * std::tan((alpha + beta) / 2);
+  const double twice =
+      0.17 * rho * sigma2 / (sigma2 + 0.13) * (1 - cos_phi * std::pow(2 * beta / M_PI, 2));
+  return rho / M_PI * (once + twice);
+}
+
+TEST(RoughDiffuse, IsOrenAndNayars) {
+  const auto rough = make_rough_diffuse({Rgb(0.7f), 0.5f});
+  Rng rng(11, Stream::test, 0, 0);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec2 z = rng.uniform2(), phi = rng.uniform2() * (2 * kPi);
+    const Vec3 wo = direction(0.01 + 0.98 * z.x, phi.x), wi = direction(0.01 + 0.98 * z.y, phi.y);
+    const double expected = oren_nayar(0.125, 0.7f, wo, wi);
+    // The azimuths' cosine is a quotient by the sines, at least 0.14 each.
+    EXPECT_NEAR(rough->f(kPoint, wo, wi, Lobes::all, Carried::radiance).g, expected,
+                1e-4 * expected);
+  }
+}
+
+TEST(RoughDiffuse, OfNoRoughnessIsLambertian) {
+  for (const bool qualitative : {true, false}) {
+    const auto smooth = make_rough_diffuse({kGrey, 0, qualitative});
+    for (const Vec3 wo : views(false)) {
+      const Rgb f = smooth->f(kPoint, wo, direction(0.4, 2), Lobes::all, Carried::radiance);
+      EXPECT_FLOAT_EQ(f.g, 0.5f * kInvPi);
+    }
+  }
+}
+
 TEST(BsdfLobes, ABlackBaseIsNoLobe) {
   PlasticConfig black;
   black.diffuse_reflectance = Rgb(0);

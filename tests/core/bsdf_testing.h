@@ -71,6 +71,14 @@ inline std::vector<BsdfCase> plain_cases(bool white) {
   using std::move;
   return {
       {"diffuse", [=] { return single(make_diffuse(colour)); }},
+      {"rough_diffuse",
+       [=] {
+         return single(make_rough_diffuse({colour * 0.95f, 0.3f}));
+       }},
+      {"rough_diffuse_qualitative",
+       [=] {
+         return single(make_rough_diffuse({colour, 0.7f, true}));
+       }},
       {"dielectric", [=] { return single(make_dielectric(glass)); }, true},
       {"dielectric_bubble", [=] { return single(make_dielectric(bubble)); }, true},
       {"thin_dielectric", [=] { return single(make_thin_dielectric(glass)); }, true},
@@ -167,12 +175,15 @@ inline std::vector<BsdfCase> plain_cases(bool white) {
                                              .spec_trans = 1}));
        },
        true, 0.09f},
+      {"principled_thin_transmitter",
+       [=] { return single(make_principled_thin({.base_color = colour, .diff_trans = 2})); }, true},
       {"two_sided",
        [=] {
          return two_sided(make_diffuse(colour), make_glossy({colour, ks, 0.3f}));
        },
        true, 0.3f},
       {"mask", [=] { return masked(make_plastic(plastic), Rgb(0.3f, 0.6f, 1)); }},
+      {"null", [=] { return single(make_null()); }, true},
   };
 }
 

@@ -121,6 +121,42 @@ TEST(ClosedForm, PaneTransmitsWhatFresnelLeaves) {
   }
 }
 
+TEST(ClosedForm, NullIsNoSurface) {
+  const std::string null = "<bsdf type='null'/>";
+  const auto lit_through = scene_from(
+      scene(sensor_xml("3, 1, 0", "0, 0, 0", 0.2, 8, 8) + horizontal(4, 4, 0, true, diffuse(0.6)) +
+            horizontal(3.5, 3.5, 0.5, true, null) +
+            horizontal(0.7, 0.4, 1.5, false, diffuse(0) + emitter("5"))));
+  // A lamp that is no surface adds its light to that of the lamp behind it.
+  const auto lamps = scene_from(scene(sensor_xml("0, 3, 0.001", "0, 0, 0", 1, 8, 8) +
+                                      horizontal(1, 1, 1, true, null + emitter("3")) +
+                                      horizontal(1, 1, 0, true, diffuse(0) + emitter("4"))));
+  const double expected = 0.6 * 5 * rectangle_form_factor(0.7, 0.4, 1.5);
+  for (const RenderConfig& config : {path_config(64), photon_config(64, 1000)}) {
+    const MeanRadiance lit = mean_radiance(render_film(*lit_through, config));
+    EXPECT_NEAR(lit.mean, expected, 4 * lit.standard_error + 1e-4 * expected);
+    const MeanRadiance seen = mean_radiance(render_film(*lamps, config));
+    EXPECT_NEAR(seen.mean, 7, 4 * seen.standard_error);
+  }
+}
+
+TEST(ClosedForm, ASheetTransmitsDiffusely) {
+  const std::string sheet = "<bsdf type='difftrans'><rgb name='transmittance' value='0.6'/></bsdf>";
+  const std::string lamp =
+      "<emitter type='point'><point name='position' x='0' y='10' z='0'/>"
+      "<rgb name='intensity' value='100'/></emitter>";  // E = 1 on the sheet
+  for (const bool up : {true, false}) {
+    const std::string lit = horizontal(1, 1, 0, up, sheet) + lamp;
+    const auto below = scene_from(scene(sensor_xml("1, -2, 0", "0, 0, 0", 0.2, 8, 8) + lit));
+    const auto above = scene_from(scene(sensor_xml("1, 2, 0", "0, 0, 0", 0.2, 8, 8) + lit));
+    for (const RenderConfig& config : {path_config(4), photon_config(4, 1000)}) {
+      const double expected = 0.6 / std::numbers::pi;
+      EXPECT_NEAR(mean_radiance(render_film(*below, config)).mean, expected, 1e-4 * expected);
+      EXPECT_EQ(mean_radiance(render_film(*above, config)).mean, 0);
+    }
+  }
+}
+
 /// A closed room with a lamp; walls of reflectance rho.
 std::unique_ptr<Scene> room(double rho) {
   return scene_from(scene(sensor_xml("0, 0, 0.9", "0, 0, -1", 60, 8, 8) +

@@ -84,7 +84,7 @@ TEST(XmlErrors, UnknownPlugins) {
       {"<scene><shape type='cube'/>\n<sensor type='fisheye'/></scene>", 2,
        "unknown sensor plug-in 'fisheye'; legal: orthographic"},
       in_sensor("<film type='specfilm'/>", "unknown film plug-in 'specfilm'; legal: hdrfilm, ldrf"),
-      in_film("<rfilter type='lanczos'/>", "unknown rfilter plug-in 'lanczos'; legal: box, gauss"),
+      in_film("<rfilter type='sinc'/>", "unknown rfilter plug-in 'sinc'; legal: box, catmullrom"),
   });
 }
 
@@ -191,6 +191,8 @@ TEST(XmlErrors, Bsdfs) {
               "needs different"),
       in_bsdf("twosided", "", "needs one or two nested <bsdf>; there are 0"),
       in_bsdf("twosided", "<bsdf type='dielectric'/>", "cannot hold a 'dielectric'"),
+      in_bsdf("twosided", "<bsdf type='null'/>", "cannot hold a 'null'"),
+      in_bsdf("twosided", "<bsdf type='difftrans'/>", "cannot hold a 'difftrans'"),
       in_bsdf("mask", "<bsdf type='diffuse'/><bsdf type='diffuse'/>", "there are 2"),
       in_shape("cube", "<bsdf type='diffuse'/><bsdf type='diffuse'/>", "takes only one bsdf"),
   });
@@ -246,6 +248,8 @@ TEST(XmlErrors, SensorsAndFilms) {
       in_film("<integer name='crop_offset_x' value='768'/>", "lies outside the film"),
       in_film("<integer name='crop_width' value='769'/>", "wider than the film"),
       in_film("<rfilter type='gaussian'><float name='stddev' value='0'/></rfilter>", "above 0"),
+      in_film("<rfilter type='lanczos'><integer name='lobes' value='0'/></rfilter>",
+              "'lobes' must lie between 1 and 16"),
       in_film("<rfilter type='box'/><rfilter type='box'/>", "only one rfilter"),
       {"<scene>\n<shape type='cube'/></scene>", 1, "the scene has no sensor"},
       {"<scene><sensor type='perspective'/></scene>", 1, "the scene has no shapes"},

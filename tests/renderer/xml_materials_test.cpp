@@ -31,6 +31,10 @@ TEST(XmlMaterials, AdaptersAndNewKindsLoadInBothDialects) {
       <bsdf type="diffuse"/><bsdf type="conductor"/></bsdf>
     <bsdf type="blendbsdf"><float name="weight" value="0.25"/>
       <bsdf type="diffuse"/><bsdf type="roughconductor"/></bsdf>
+    <bsdf type="roughdiffuse"><rgb name="diffuseReflectance" value="0.3, 0.4, 0.5"/>
+      <float name="alpha" value="0.5"/><boolean name="useFastApprox" value="true"/></bsdf>
+    <bsdf type="difftrans"><texture name="transmittance" type="checkerboard"/></bsdf>
+    <bsdf type="null"/>
     <emitter type="constant"/>)"));
   EXPECT_TRUE(scene->warnings.empty()) << scene->warnings.front();
   const auto modern = load_text(scene_with(R"(
