@@ -6,6 +6,7 @@
 // (Veach 1997, 5.3.2) keeps photon and eye paths in agreement.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -47,11 +48,15 @@ class Scattering {
   Rgb f_cos(Vec3 wi, Lobes lobes) const { return f(wi, lobes) * std::abs(dot(wi, point_.ns)); }
 
   /// Radiance per arriving flux density, for density estimation: photons lie as densely as the
-  /// geometric cosine has them, while an eye path weighs them by the shading one.
+  /// geometric cosine has them, while an eye path weighs them by the shading one. The ratio of the
+  /// two has no bound, nor have estimates of it a variance (of photons along the surface, whose
+  /// geometric cosine c is as frequent as it is large, the mean of 1 / c^2 is infinite), so it is
+  /// cut. Under even light that loses t^2 / (4 (kMostRatio - 1)) of all, the normals being t apart:
+  /// 0.3 % at 17 degrees.
   Rgb f_flux(Vec3 wi, Lobes lobes) const {
     const Rgb value = f(wi, lobes);
     if (point_.ns == point_.ng) return value;
-    return value * std::abs(dot(wi, point_.ns) / dot(wi, point_.ng));
+    return value * std::min(kMostRatio, std::abs(dot(wi, point_.ns) / dot(wi, point_.ng)));
   }
 
   float pdf_w(Vec3 wi, Lobes lobes) const {
@@ -85,6 +90,8 @@ class Scattering {
   }
 
  private:
+  static constexpr float kMostRatio = 8;
+
   bool consistent(Vec3 wi, Vec3 wi_local) const {
     return dot(wi, point_.ng) * wi_local.z > 0 && wo_ng_ * wo_local_.z > 0;
   }

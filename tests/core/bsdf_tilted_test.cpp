@@ -130,5 +130,30 @@ TEST(FluxDensity, IsWeighedByTheRatioOfCosines) {
   EXPECT_FALSE(seen.lambertian());
 }
 
+/// Even light from everywhere: photons arrive by the cosine to the geometric normal, and together
+/// bring (1 + cos t) / 2 of what an untilted surface sends back, less what cutting the ratio loses.
+TEST(FluxDensity, OfEvenLightIsRightAndNoPhotonStandsOut) {
+  constexpr int kPhotons = 100'000;
+  const auto white = make_diffuse(Rgb(1));
+  for (const float tilt : {0.1f, 0.3f, 0.5f}) {
+    SurfacePoint at = flat_point();
+    at.ns = {std::sin(tilt), 0, std::cos(tilt)};
+    const Scattering seen(at, *white, {0, 0, 1}, Carried::radiance);
+    Running sum;
+    float most = 0;
+    for (std::uint64_t i = 0; i < kPhotons; ++i) {
+      Rng rng(12, Stream::test, 0, i);
+      const float share = seen.f_flux(sample_cosine_hemisphere(rng.uniform2()), Lobes::all).g * kPi;
+      sum.add(static_cast<double>(share));
+      most = std::max(most, share);
+    }
+    const double right = (1 + std::cos(static_cast<double>(tilt))) / 2;
+    const double loss = static_cast<double>(tilt * tilt) / 28;
+    EXPECT_NEAR(sum.mean(), right - loss / 2, loss / 2 + 4 * sum.standard_error()) << tilt;
+    EXPECT_LE(most, 8.001f);
+    EXPECT_GT(most, 4) << tilt;  // so much is not cut
+  }
+}
+
 }  // namespace
 }  // namespace octolux
