@@ -6,7 +6,7 @@
 // solid angles compress by d wi' / d wi = cos wi / (eta^2 cos wi').
 #include <cmath>
 
-#include "core/bsdf_makers.h"
+#include "core/bsdf_adapters.h"
 #include "core/constants.h"
 #include "core/fresnel.h"
 

@@ -2,6 +2,7 @@
 // Mitsuba's `mask`; opacity may differ between the channels. And nothing everywhere, its `null`.
 #include <algorithm>
 
+#include "core/bsdf_adapters.h"
 #include "core/bsdf_makers.h"
 
 namespace octolux {

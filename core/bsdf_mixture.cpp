@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/bsdf_makers.h"
+#include "core/bsdf_adapters.h"
 #include "core/constants.h"
 
 namespace octolux {

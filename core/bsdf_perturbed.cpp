@@ -13,7 +13,7 @@
 // either normal, rarely the mirrored one, and weighted by the sum of both densities.
 #include <cmath>
 
-#include "core/bsdf_makers.h"
+#include "core/bsdf_adapters.h"
 #include "core/constants.h"
 #include "core/frame.h"
 

@@ -1,6 +1,6 @@
 // One BSDF for the front of a surface and one for its back, each used as if it were a front.
 // Mitsuba's `twosided`.
-#include "core/bsdf_makers.h"
+#include "core/bsdf_adapters.h"
 
 namespace octolux {
 namespace {

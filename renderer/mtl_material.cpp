@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/bsdf_adapters.h"
 #include "core/bsdf_makers.h"
 #include "renderer/mtl_textures.h"
 

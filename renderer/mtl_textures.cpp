@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/bsdf_makers.h"
+#include "core/bsdf_adapters.h"
 #include "core/file_io.h"
 #include "core/hash.h"
 #include "core/image_io.h"

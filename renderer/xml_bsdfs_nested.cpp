@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "core/bsdf_makers.h"
+#include "core/bsdf_adapters.h"
 #include "renderer/xml_bsdfs.h"
 #include "renderer/xml_objects.h"
 

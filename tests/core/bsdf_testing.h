@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/bsdf_adapters.h"
 #include "core/bsdf_makers.h"
 #include "core/rng.h"
 

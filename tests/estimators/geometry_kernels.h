@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "core/bsdf_adapters.h"
 #include "core/bsdf_makers.h"
 #include "core/texture.h"
 #include "estimators/estimator.h"
