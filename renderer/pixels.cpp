@@ -88,7 +88,8 @@ SampleGrid trace_grid(const Scene& scene, PassKey key, std::uint64_t number,
     Tracer tracer(scene, Rng(key.seed, Stream::eye, number, pixel));
     tracer.sequence = {key.seed, pixel, number};
     const Vec2 corner{static_cast<float>(x), static_cast<float>(y)};
-    const Vec2 lens = tracer.sequence.points(PixelUse::lens, 0, 1)[0];
+    const Vec2 lens = scene.camera.has_lens() ? tracer.sequence.points(PixelUse::lens, 0, 1)[0]
+                                              : Vec2{0.5f, 0.5f};
     grid.samples[pixel] = path(tracer, scene.camera.ray(corner + grid.offset, lens));
     rays.fetch_add(tracer.rays(), std::memory_order_relaxed);
   });

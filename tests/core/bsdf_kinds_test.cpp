@@ -67,6 +67,17 @@ TEST(RoughDiffuse, IsOrenAndNayars) {
   }
 }
 
+TEST(RoughDiffuse, QualitativelySendsMoreBack) {
+  const auto rough = make_rough_diffuse({kGrey, 0.5f, true});  // sigma^2 = 0.125
+  const Vec3 wo = direction(0.5, 1);                           // 60 degrees: sin tan = 1.5
+  const auto at_azimuth = [&](float phi) {
+    return rough->f(kPoint, wo, direction(0.5, phi), Lobes::all, Carried::radiance).g * 2 * kPi;
+  };
+  const float a = 1 - 0.5f * 0.125f / 0.455f, b = 0.45f * 0.125f / 0.215f;
+  EXPECT_NEAR(at_azimuth(1), a + 1.5f * b, 1e-5);
+  EXPECT_NEAR(at_azimuth(1 + kPi), a, 1e-5);
+}
+
 TEST(RoughDiffuse, OfNoRoughnessIsLambertian) {
   for (const bool qualitative : {true, false}) {
     const auto smooth = make_rough_diffuse({kGrey, 0, qualitative});
