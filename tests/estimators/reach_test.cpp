@@ -22,7 +22,7 @@ TEST(ReachSlow, BiasOfOctoBox) {
   for (const ReachMeasure& measure : reach_measures()) {
     const bool plane = measure.limit < 0.01;
     // On the plane a standard error of a fifth of the limit.
-    const LabSettings settings = settings_for("octobox", plane ? 30000 : 6000);
+    const LabSettings settings = settings_for("octobox", plane ? 30000 : 3000);
     for (const LabResult& r : worst_bias(measure, settings)) {
       EXPECT_LT(std::abs(r.bias()) - kDeviates * r.standard_error, measure.limit)
           << measure.name << " n " << r.neighbours << ": " << r.bias() << " +- "

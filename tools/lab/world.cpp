@@ -71,6 +71,7 @@ LabWorld::LabWorld(const LabLayout& layout, double angle)
   }
   shapes_.push_back({std::move(mesh), -1, -1, "laboratory"});
   caster_ = std::make_unique<RayCaster>(shapes_);
+  viewer_ = find_viewer();
 }
 
 Vec3 LabWorld::turned(double x, double y, double z) const {
@@ -87,7 +88,7 @@ double LabWorld::irradiance(Point2 p, bool& near) const {
   return 0;
 }
 
-Vec3 LabWorld::viewer() const {
+Vec3 LabWorld::find_viewer() const {
   constexpr int kSamples = 10000;
   Point2 sum{0, 0};
   int count = 0;
@@ -134,12 +135,13 @@ std::vector<Photon> LabWorld::photons(int n, PhotonPattern pattern, Rng& rng) co
   return photons;
 }
 
-void LabWorld::add_floor_photon(Point2 p, double density, Rng& rng,
+bool LabWorld::add_floor_photon(Point2 p, double density, Rng& rng,
                                 std::vector<Photon>& photons) const {
   bool near = false;
   const double share = irradiance(p, near) / brightest_;
   const bool kept = rng.uniform() < share;
   if (kept) photons.push_back(photon_on_floor(p, 1 / density));
+  return kept && near;
 }
 
 std::vector<Photon> LabWorld::poisson_floor(int n, double density, Rng& rng) const {
@@ -151,11 +153,7 @@ std::vector<Photon> LabWorld::poisson_floor(int n, double density, Rng& rng) con
     radius2 += exponential(rng) / (std::numbers::pi * density * brightest_);
     const double angle = kPi2 * rng.uniform();
     const Point2 p{std::sqrt(radius2) * std::cos(angle), std::sqrt(radius2) * std::sin(angle)};
-    const std::size_t before = photons.size();
-    add_floor_photon(p, density, rng, photons);
-    bool near = false;
-    irradiance(p, near);
-    if (photons.size() > before && near && ++near_count == n + 1) last2 = radius2;
+    if (add_floor_photon(p, density, rng, photons) && ++near_count == n + 1) last2 = radius2;
   }
   return photons;
 }

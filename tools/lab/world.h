@@ -25,11 +25,13 @@ class LabWorld {
 
   const RayCaster& caster() const { return *caster_; }
   /// Where the query is seen from: above, and leaning over the floor on its side of the walls.
-  Vec3 viewer() const;
+  Vec3 viewer() const { return viewer_; }
 
  private:
+  Vec3 find_viewer() const;
   double irradiance(Point2 p, bool& near) const;
-  void add_floor_photon(Point2 p, double density, Rng& rng, std::vector<Photon>& photons) const;
+  /// True if it is kept, and on the query's side of the walls.
+  bool add_floor_photon(Point2 p, double density, Rng& rng, std::vector<Photon>& photons) const;
   std::vector<Photon> poisson_floor(int n, double density, Rng& rng) const;
   std::vector<Photon> low_discrepancy_floor(int n, double density, Rng& rng) const;
   void add_wall_photons(double density, double reach, Rng& rng, std::vector<Photon>& photons) const;
@@ -42,6 +44,7 @@ class LabWorld {
   double farthest_ = 0;  // photons
   std::vector<Shape> shapes_;
   std::unique_ptr<RayCaster> caster_;
+  Vec3 viewer_;
 };
 
 }  // namespace octolux
