@@ -21,10 +21,7 @@ class PhotonTreeWalk {
 
   /// Passes over photons on surfaces that face none of these ways.
   PhotonTreeWalk(const PhotonTree& tree, Vec3 position, FacingSet facing)
-      : tree_(tree),
-        position_(position),
-        along_{position.x, position.y, position.z},
-        facing_(facing) {}
+      : tree_(tree), position_(position), facing_(facing) {}
 
   /// The next block with a part at a squared distance below `limit`, or kEnd.
   template <Order order>
@@ -72,11 +69,15 @@ class PhotonTreeWalk {
   template <Order order>
   void descend(Cell& cell, float limit) {
     const PhotonTree::Node node = tree_.nodes_[root_->first + cell.node];
-    const float difference = along_[node.axis] - node.split;
+    const auto is = [&](std::uint32_t axis) { return node.axis == axis; };
+    const float along = is(0) ? position_.x : is(1) ? position_.y : position_.z;
+    const float difference = along - node.split;
     const std::uint32_t near = 2 * cell.node + (difference >= 0 ? 1 : 0);
     Cell far = cell;
     far.node = near ^ 1;
-    far.offset[node.axis] = difference;
+    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+      if (is(axis)) far.offset[axis] = difference;
+    }
     far.distance2 = far.offset[0] * far.offset[0] + far.offset[1] * far.offset[1] +
                     far.offset[2] * far.offset[2];
     cell.node = near;
@@ -87,7 +88,6 @@ class PhotonTreeWalk {
   const PhotonTree& tree_;
   const PhotonTree::Root* root_ = nullptr;
   Vec3 position_;
-  std::array<float, 3> along_;  // the same, by axis
   FacingSet facing_;
   std::size_t next_root_ = 0;
   int outside_ = 0;                     // 1: trees around the position are done

@@ -36,11 +36,10 @@ struct Edges {
 double plane_error(const Edges& edges) {
   const Vec3d c = edges.b - edges.a;
   const double a2 = dot(edges.a, edges.a), b2 = dot(edges.b, edges.b), c2 = dot(c, c);
-  const double longest = std::sqrt(std::max(a2, std::max(b2, c2)));
-  const double twice_area = length(edges.face);
-  const double diameter = std::sqrt(a2 * b2) * std::sqrt(c2) / twice_area;
   constexpr double kMaxRatio = 512;
-  return 2 * 0x1p-24 * (diameter < kMaxRatio * longest ? diameter : kMaxRatio * longest);
+  const double most2 = kMaxRatio * kMaxRatio * std::max(a2, std::max(b2, c2));
+  const double diameter2 = a2 * b2 * c2 / dot(edges.face, edges.face);
+  return 2 * 0x1p-24 * std::sqrt(diameter2 < most2 ? diameter2 : most2);
 }
 
 template <typename T>

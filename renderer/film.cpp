@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "core/check.h"
+#include "core/parallel.h"
 
 namespace octolux {
 
@@ -15,23 +16,29 @@ Film::Film(int width, int height)
 void Film::add(const PassImage& pass) {
   OCTOLUX_CHECK(pass.size() == pixels_.size());
   ++passes_;
-  for (std::size_t i = 0; i < pixels_.size(); ++i) {
-    const EyeSample& sample = pass[i];
-    const Rgb radiance = sample.radiance();
-    Pixel& pixel = pixels_[i];
-    pixel.direct += sample.direct;
-    pixel.caustic += sample.caustic;
-    pixel.indirect += sample.indirect;
-    pixel.albedo += sample.albedo;
-    pixel.normal += sample.normal;
-    pixel.depth += sample.depth;
-    for (int c = 0; c < 3; ++c) {
-      pixel.sum[c] += radiance[c];
-      pixel.square[c] += static_cast<double>(radiance[c]) * radiance[c];
-    }
-    const double y = luminance(radiance);
-    pixel.luminance_square += y * y;
+  constexpr std::int64_t kPixels = 4096;  // worth a thread
+  parallel_for_chunks(static_cast<std::int64_t>(pixels_.size()), kPixels,
+                      [&](std::int64_t, std::int64_t begin, std::int64_t end) {
+                        for (auto i = static_cast<std::size_t>(begin); i < std::size_t(end); ++i) {
+                          pixels_[i].add(pass[i]);
+                        }
+                      });
+}
+
+void Film::Pixel::add(const EyeSample& sample) {
+  direct += sample.direct;
+  caustic += sample.caustic;
+  indirect += sample.indirect;
+  albedo += sample.albedo;
+  normal += sample.normal;
+  depth += sample.depth;
+  const Rgb radiance = sample.radiance();
+  for (int c = 0; c < 3; ++c) {
+    sum[c] += radiance[c];
+    square[c] += static_cast<double>(radiance[c]) * radiance[c];
   }
+  const double y = luminance(radiance);
+  luminance_square += y * y;
 }
 
 void Film::note_non_finite(std::int64_t count, std::size_t pixel) {

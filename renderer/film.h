@@ -72,6 +72,8 @@ class Film {
     float depth = 0;
     double sum[3] = {}, square[3] = {};  // of radiance per channel
     double luminance_square = 0;
+
+    void add(const EyeSample& sample);
   };
   Image mean_of(Rgb Pixel::*field) const;
 

@@ -44,17 +44,41 @@ struct SampleGrid {
   }
 };
 
+/// What a pixel's neighbours along one axis weigh in it: as all samples of a grid lie at the same
+/// place of their pixels, the same for every pixel.
+class FilterWeights {
+ public:
+  FilterWeights(const Filter& filter, float offset) {
+    const int reach = static_cast<int>(std::ceil(filter.reach() + 0.5f));
+    for (int i = -reach; i <= reach; ++i) {
+      const float weight = filter.profile(static_cast<float>(i) + offset - 0.5f);
+      if (weight == 0 && weights_.empty()) continue;
+      if (weights_.empty()) first_ = i;
+      weights_.push_back(weight);
+      if (weight != 0) last_ = i;
+    }
+  }
+  /// Those of `size` pixels that pixel x reaches, from begin to before end.
+  int begin(int x) const { return std::max(0, x + first_); }
+  int end(int x, int size) const { return std::min(size, x + last_ + 1); }
+  /// Of pixel i in pixel x.
+  float operator()(int i, int x) const {
+    return weights_[static_cast<std::size_t>(i - x - first_)];
+  }
+
+ private:
+  int first_ = 0, last_ = -1;
+  std::vector<float> weights_;
+};
+
 /// Adds the filtered grid's value at pixel (x, y), times `share`.
-void add_filtered(EyeSample& out, const SampleGrid& grid, const Filter& filter, int x, int y,
-                  float share) {
-  const int reach = static_cast<int>(std::ceil(filter.reach() + 0.5f));
+void add_filtered(EyeSample& out, const SampleGrid& grid, const FilterWeights& across,
+                  const FilterWeights& down, int x, int y, float share) {
   EyeSample sum;
   float total = 0;
-  for (int j = std::max(0, y - reach); j <= std::min(grid.height - 1, y + reach); ++j) {
-    const float wy = filter.profile(static_cast<float>(j - y) + grid.offset.y - 0.5f);
-    if (wy == 0) continue;
-    for (int i = std::max(0, x - reach); i <= std::min(grid.width - 1, x + reach); ++i) {
-      const float weight = wy * filter.profile(static_cast<float>(i - x) + grid.offset.x - 0.5f);
+  for (int j = down.begin(y); j < down.end(y, grid.height); ++j) {
+    for (int i = across.begin(x); i < across.end(x, grid.width); ++i) {
+      const float weight = down(j, y) * across(i, x);
       const EyeSample& sample = grid.at(i, j);
       if (weight == 0 || !is_finite(sample.radiance())) continue;
       add(sum, sample, weight);
@@ -110,9 +134,10 @@ PixelPass trace_pixels(const Scene& scene, int samples, PassKey key, const EyePa
   for (int s = 0; s < samples; ++s) {
     const std::uint64_t number = key.pass * static_cast<std::uint64_t>(samples) + s;
     const SampleGrid grid = trace_grid(scene, key, number, path, pass);
+    const FilterWeights across(scene.filter, grid.offset.x), down(scene.filter, grid.offset.y);
     for_each_pixel(grid.width, grid.height, [&](int x, int y) {
       EyeSample& out = pass.image[static_cast<std::size_t>(y) * grid.width + x];
-      add_filtered(out, grid, scene.filter, x, y, share);
+      add_filtered(out, grid, across, down, x, y, share);
     });
   }
   return pass;
