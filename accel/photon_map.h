@@ -20,11 +20,11 @@ namespace octolux {
 /// What counts as near, and which photons count at all.
 struct PhotonQuery {
   Vec3 position;
-  Vec3 normal;               // geometric, unit, on the side of the viewer
-  float max_radius = 1e30f;  // [m] in the squashed metric
-  int max_segments = 255;    // photons with longer paths do not count
-  bool both_sides = false;   // count photons arriving from either side (smooth transmission)
-  float squash = 3;          // >= 1; metric |d|^2 + (squash^2 - 1) (d . normal)^2 (Jensen 2002)
+  Vec3 normal;                      // geometric, unit, on the side of the viewer
+  float max_radius = 1e30f;         // [m] in the squashed metric
+  int max_segments = kMaxSegments;  // photons with longer paths do not count
+  bool both_sides = false;          // count photons arriving from either side (smooth transmission)
+  float squash = 3;  // >= 1; metric |d|^2 + (squash^2 - 1) (d . normal)^2 (Jensen 2002)
   const PhotonRegion* region = nullptr;  // if given, only photons above or below it count
 };
 

@@ -57,8 +57,10 @@ PhotonPayload pack(const Photon& photon) {
   PhotonPayload payload;
   payload.flux = pack_flux(photon.flux);
   payload.wi = pack_direction(photon.wi, kWiBits);
-  payload.normal_segments = pack_direction(photon.normal, kNormalBits) << 8 |
-                            static_cast<std::uint32_t>(std::clamp(photon.segments, 1, 255));
+  payload.normal_segments =
+      pack_direction(photon.normal, kNormalBits) << 8 |
+      static_cast<std::uint32_t>(photon.scattered) << 7 |
+      static_cast<std::uint32_t>(std::clamp(photon.segments, 1, kMaxSegments));
   return payload;
 }
 

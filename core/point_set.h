@@ -77,9 +77,11 @@ class PointSet {
 
 /// What an eye sample needs points for, at each surface on its way.
 enum class PixelUse : std::uint64_t {
-  lights,         // places on lights
-  light_choice,   // which lights
-  gather,         // directions of gather rays
+  lights,          // places on lights
+  light_choice,    // which lights
+  gather,          // directions of gather rays that all follow the BSDF
+  gather_by_bsdf,  // the same of those beside others that follow guides: as many in every sample
+  gather_by_guide,
   glossy_lights,  // as above, for lobes that reflect or refract like a mirror, but not quite
   glossy_light_choice,
   specular_lobe,  // which of such lobes the path follows

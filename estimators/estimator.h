@@ -36,7 +36,7 @@ struct EstimatorConfig {
 /// Where radiance is wanted.
 struct GatherPoint {
   const Scattering& at;               // point, BSDF and wo
-  int max_segments = 255;             // photons with longer paths do not count
+  int max_segments = kMaxSegments;    // photons with longer paths do not count
   const RayCaster* caster = nullptr;  // for kernels that look at the geometry around the point
   float turn = 0;                     // random in [0, 1), independent of the photons
 };

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "renderer/gather_guide.h"
 #include "renderer/roulette.h"
 
 namespace octolux {
@@ -36,14 +35,26 @@ int FinalGather::remaining(int segments) const {
 }
 
 GatherPoint FinalGather::gather_point(Tracer& tracer, const Scattering& at, int segments) const {
-  return {at, std::min(255, remaining(segments)), scene_.caster.get(), tracer.rng.uniform()};
+  return {at, std::min(kMaxSegments, remaining(segments)), scene_.caster.get(),
+          tracer.rng.uniform()};
 }
 
 /// What the eye sees gathers along the pixel's own sequence, so that its passes complement each
-/// other; what lies behind is met anew in every pass.
-PointSet FinalGather::gather_points(Tracer& tracer, const Level& level) const {
-  if (level.retraces > 0) return {level.rays, tracer.rng};
-  return tracer.sequence.points(PixelUse::gather, level.segments, level.rays);
+/// other; what lies behind is met anew in every pass. Rays that follow the BSDF and those that
+/// follow guides have sequences of their own: half of each sample's points of one would not be
+/// spread evenly through the passes.
+GatherDirections::Points FinalGather::gather_points(Tracer& tracer, const Level& level,
+                                                    int guided) const {
+  const auto points = [&](PixelUse use, int n) {
+    return level.retraces > 0 ? PointSet(n, tracer.rng)
+                              : tracer.sequence.points(use, level.segments, n);
+  };
+  if (guided == 0) {
+    const PointSet all = points(PixelUse::gather, level.rays);
+    return {all, all};
+  }
+  return {points(PixelUse::gather_by_bsdf, level.rays - guided),
+          points(PixelUse::gather_by_guide, guided)};
 }
 
 LightPoints FinalGather::light_points(Tracer& tracer, const Level& level, int n) const {
@@ -88,8 +99,9 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
     guide = learned_.guides.find(at.point().position, at.facing_normal());
     next.read_distance = static_cast<float>(config_.eye.retrace) * around->bandwidth;
   }
-  const PointSet u = gather_points(tracer, level);
-  const GatherDirections directions(at, {around->guide, guide}, level.rays, u);
+  const GuidePair guides(around->guide, guide);
+  const int guided = GatherDirections::guided(guides, level.rays);
+  const GatherDirections directions(at, guides, level.rays, gather_points(tracer, level, guided));
   for (int i = 0; i < level.rays; ++i) {
     std::optional<GatherDirection> chosen = directions.draw(i, tracer.rng);
     if (!chosen) continue;

@@ -7,6 +7,7 @@
 #include "estimators/radiance_map.h"
 #include "renderer/config.h"
 #include "renderer/direct_light.h"
+#include "renderer/gather_guide.h"
 #include "renderer/gather_records.h"
 #include "renderer/learned_guides.h"
 #include "renderer/learned_lights.h"
@@ -55,7 +56,7 @@ class FinalGather {
   SplitRadiance radiance(Tracer& tracer, const Scattering& at, const Level& level) const;
   Rgb follow(Tracer& tracer, Ray ray, const Level& level, Arrival arrival) const;
   Rgb look_up(Tracer& tracer, const Scattering& at, int segments) const;
-  PointSet gather_points(Tracer& tracer, const Level& level) const;
+  GatherDirections::Points gather_points(Tracer& tracer, const Level& level, int guided) const;
   LightPoints light_points(Tracer& tracer, const Level& level, int n) const;
   GatherPoint gather_point(Tracer& tracer, const Scattering& at, int segments) const;
   int remaining(int segments) const;

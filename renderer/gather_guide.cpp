@@ -36,7 +36,7 @@ GatherGuide::GatherGuide(const PhotonMap& map, std::span<const Neighbour> photon
   for (std::size_t i = 0; i < photons.size(); i += stride) {
     const PhotonPayload& payload = map.payload(photons[i].photon);
     const float flux = luminance(unpack_flux(payload.flux));
-    if (segments(payload) < 2 || !(flux > 0)) continue;
+    if (!scattered(payload) || !(flux > 0)) continue;
     const Vec3 axis = wi(payload);
     x_[count_] = axis.x;
     y_[count_] = axis.y;
@@ -119,17 +119,17 @@ Vec3 GuidePair::sample(Vec2 u) const {
 }
 
 GatherDirections::GatherDirections(const Scattering& at, const GuidePair& guides, int rays,
-                                   const PointSet& points)
+                                   const Points& points)
     : at_(at),
       guides_(guides),
-      guided_(guides.empty() ? 0 : rays / 2),
+      guided_(guided(guides, rays)),
       unguided_(rays - guided_),
       points_(points) {}
 
 std::optional<GatherDirection> GatherDirections::draw(int i, Rng& rng) const {
-  if (i >= unguided_) return by_guide(points_[i]);
+  if (i >= unguided_) return by_guide(points_.by_guide[i - unguided_]);
   const float u_lobe = rng.uniform();
-  return by_bsdf(u_lobe, points_[i]);
+  return by_bsdf(u_lobe, points_.by_bsdf[i]);
 }
 
 std::optional<GatherDirection> GatherDirections::by_bsdf(float u_lobe, Vec2 u) const {

@@ -24,9 +24,9 @@ namespace octolux {
 class GatherGuide {
  public:
   GatherGuide() = default;
-  /// From photons that were scattered at least once: what came straight from a light is brought by
-  /// next-event estimation. Of many photons, an evenly spread share is used. `normal`: unit, of the
-  /// surface, on the side the photons came from.
+  /// From photons that a smooth lobe scattered: next-event estimation and the caustic map bring the
+  /// others, also those that came through panes or glass. Of many photons, an evenly spread share
+  /// is used. `normal`: unit, of the surface, on the side the photons came from.
   GatherGuide(const PhotonMap& map, std::span<const Neighbour> photons, Vec3 normal);
 
   /// The second moment of radiance times cosine, were directions chosen by the cosine, over that of
@@ -82,8 +82,15 @@ class GuidePair {
 /// noise of their own, and all follow the BSDF.
 class GatherDirections {
  public:
-  /// Refers to `at` and `points`, one for each ray, and to what `guides` refers to.
-  GatherDirections(const Scattering& at, const GuidePair& guides, int rays, const PointSet& points);
+  /// One for each ray of either kind.
+  struct Points {
+    PointSet by_bsdf, by_guide;
+  };
+  /// How many of `rays` follow the guides.
+  static int guided(const GuidePair& guides, int rays) { return guides.empty() ? 0 : rays / 2; }
+
+  /// Refers to `at`, and to what `guides` refers to.
+  GatherDirections(const Scattering& at, const GuidePair& guides, int rays, const Points& points);
   /// Direction `i` of `rays`; empty if it brings nothing. The sum of weight times radiance over
   /// all `i` is the reflected radiance in the mean.
   std::optional<GatherDirection> draw(int i, Rng& rng) const;
@@ -95,7 +102,7 @@ class GatherDirections {
   const Scattering& at_;
   const GuidePair guides_;
   int guided_, unguided_;  // how many rays follow which
-  const PointSet& points_;
+  const Points points_;
 };
 
 }  // namespace octolux

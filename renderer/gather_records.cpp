@@ -147,7 +147,7 @@ const Surroundings* GatherRecords::surroundings(const GatherPoint& at) const {
   if (!record) return nullptr;
   return &surroundings_.get(*record, [&] {
     return at_record(
-        *record, std::min(255, config_.max_segments + 1),
+        *record, std::min(kMaxSegments, config_.max_segments + 1),
         [&](const GatherPoint& there) { return survey(*map_, there, config_.neighbours); });
   });
 }

@@ -30,10 +30,10 @@ Surroundings survey(const RadianceMap& map, const GatherPoint& at, int neighbour
 
 /// What all records of a pass have in common.
 struct RecordConfig {
-  int neighbours = 20;         // of the bandwidth
-  int max_segments = 255;      // of photons that may count where gather rays from the eye end
-  bool must_see = false;       // does a record serve only points it sees?
-  std::uint64_t turn_key = 0;  // of the records' random turns (GatherPoint::turn)
+  int neighbours = 20;              // of the bandwidth
+  int max_segments = kMaxSegments;  // of photons that may count where gather rays from the eye end
+  bool must_see = false;            // does a record serve only points it sees?
+  std::uint64_t turn_key = 0;       // of the records' random turns (GatherPoint::turn)
 };
 
 /// Thread-safe: a record holds the same whoever makes it.

@@ -58,8 +58,8 @@ Vec3 LearnedGuide::sample(Vec2 u) const {
 void LearnedGuides::add(const std::vector<Photon>& photons) {
   for (const Photon& p : photons) {
     const float flux = luminance(p.flux);
-    // What came straight from a light is brought by next-event estimation.
-    if (p.segments < 2 || !is_usable(p) || !(flux > 0)) continue;
+    // Next-event estimation and the caustic map bring the others.
+    if (!p.scattered || !is_usable(p) || !(flux > 0)) continue;
     deposits_[facing_index(p.normal)].push_back({p.position, p.wi, p.normal, flux});
     ++photons_;
   }

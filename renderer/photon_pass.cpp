@@ -19,6 +19,7 @@ struct Flight {
   Ray ray;
   Rgb flux;          // [W]
   int segments = 0;  // behind it
+  bool scattered = false;
 };
 
 Stream stream_of(PhotonKind kind) {
@@ -47,6 +48,7 @@ bool scatter(Flight& flight, const Scattering& at, Lobes lobes, Rng& rng) {
   const float survival = std::min(1.0f, max_component(flux) / max_component(flight.flux));
   if (!(u_survive < survival)) return false;
   flight.flux = flux / survival;
+  flight.scattered |= any(sample->lobe & Lobes::smooth);
   flight.ray = at.spawn(sample->wi);
   return true;
 }
@@ -104,7 +106,8 @@ void trace_photon(Tracer& tracer, const EmittedPhoton& start, PhotonKind kind,
     const Scattering at(hit->point, *hit->bsdf, -flight.ray.direction, Carried::flux);
     if (hit->bsdf->has(Lobes::smooth) && (!caustic || bounces > 0)) {
       photons.push_back({hit->point.position, at.wo(), at.facing_normal(), flight.flux,
-                         flight.segments, hit->point.error, at.facing_shading_normal()});
+                         flight.segments, hit->point.error, at.facing_shading_normal(),
+                         flight.scattered});
     }
     if (!hit->bsdf->has(followed) || !scatter(flight, at, followed, tracer.rng)) return;
   }

@@ -88,7 +88,8 @@ GatherRecords make_records(const Job& job, const RadianceMap& map, PassKey key,
   progress.timing.photons += watch.lap();
   RecordConfig records;
   records.neighbours = config.estimator.neighbours;
-  if (job.scene.max_depth >= 0) records.max_segments = std::clamp(job.scene.max_depth - 2, 0, 255);
+  if (job.scene.max_depth >= 0)
+    records.max_segments = std::clamp(job.scene.max_depth - 2, 0, kMaxSegments);
   records.must_see = job.estimator->sees_geometry();
   records.turn_key = hash64(hash64(key.seed) ^ key.pass);
   RecordSites sites(traced.sites, traced.photons, map.bandwidth(), records.neighbours,

@@ -122,7 +122,7 @@ PhotonQuery random_query(Rng& rng, const PhotonMap& map) {
   const std::uint32_t choice = rng.next();
   query.normal = choice % 2 == 0 ? Vec3{0, 0, 1} : random_direction(rng);
   query.max_radius = kRadii[(choice >> 1) % 5];
-  query.max_segments = (choice >> 5) % 3 == 0 ? 4 : 255;
+  query.max_segments = (choice >> 5) % 3 == 0 ? 4 : kMaxSegments;
   query.both_sides = (choice >> 10) % 4 == 0;
   query.squash = (choice >> 15) % 3 == 0 ? 1.0f : 3.0f;
   return query;

@@ -108,16 +108,18 @@ TEST(PackPhoton, KeepsEachFieldApart) {
   photon.wi = {0, 1, 0};
   photon.normal = {-1, 0, 0};
   photon.flux = {4, 2, 1};
-  for (const int n : {1, 2, 255}) {
+  for (const int n : {1, 2, kMaxSegments}) {
     photon.segments = n;
+    photon.scattered = !photon.scattered;
     const PhotonPayload p = pack(photon);
     EXPECT_EQ(segments(p), n);
+    EXPECT_EQ(scattered(p), photon.scattered);
     EXPECT_EQ(normal(p), photon.normal);
     EXPECT_EQ(wi(p), photon.wi);
     EXPECT_EQ(unpack_flux(p.flux), photon.flux);
   }
   photon.segments = 1000;
-  EXPECT_EQ(segments(pack(photon)), 255);
+  EXPECT_EQ(segments(pack(photon)), kMaxSegments);
 }
 
 }  // namespace

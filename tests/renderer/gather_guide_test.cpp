@@ -14,7 +14,14 @@ namespace {
 constexpr Vec3 kNormal{0, 0, 1};
 
 Photon photon(Vec3 wi, float flux, int segments) {
-  return {{0.1f * wi.x, 0.1f * wi.y, 0}, normalize(wi), kNormal, Rgb(flux), segments};
+  return {{0.1f * wi.x, 0.1f * wi.y, 0},
+          normalize(wi),
+          kNormal,
+          Rgb(flux),
+          segments,
+          0,
+          kNormal,
+          segments > 1};
 }
 
 struct Case {
@@ -140,8 +147,8 @@ Running reflected(const Bsdf& bsdf, const GuidePair& guides, int rays, double (*
   Running sum;
   for (int i = 0; i < 20000; ++i) {
     Rng rng(9, Stream::test, 0, static_cast<std::uint64_t>(i));
-    const PointSet points(rays, rng);
-    const GatherDirections directions(at, guides, rays, points);
+    const PointSet by_bsdf(rays, rng), by_guide(rays, rng);
+    const GatherDirections directions(at, guides, rays, {by_bsdf, by_guide});
     double total = 0;
     for (int r = 0; r < rays; ++r) {
       const std::optional<GatherDirection> d = directions.draw(r, rng);

@@ -25,7 +25,7 @@ std::vector<Photon> on_floor(int count, double from_spot, std::uint64_t seed = 3
     const Vec3 spot{at.x > 0.5f ? -kSpot.x : kSpot.x, kSpot.y, kSpot.z};
     const Vec3 even = sample_cosine_hemisphere(rng.uniform2());
     const Vec3 wi = rng.uniform() < from_spot ? spot : even;
-    photons.push_back({{at.x, at.y, 0}, wi, kUp, Rgb(1), 2});
+    photons.push_back({{at.x, at.y, 0}, wi, kUp, Rgb(1), 2, 0, kUp, true});
   }
   return photons;
 }
@@ -66,7 +66,7 @@ TEST(LearnedGuides, KnowNothingOfOtherFacesAndOfWhatDoesNotCount) {
   EXPECT_FALSE(guides.find({0.5f, 0.5f, 0}, -kUp));
   EXPECT_FALSE(LearnedGuides().find({0.5f, 0.5f, 0}, kUp));
   std::vector<Photon> useless = on_floor(4, 0);
-  useless[0].segments = 1;
+  useless[0].scattered = false;
   useless[1].flux = Rgb(0);
   useless[2].position.x = NAN;
   useless[3].flux = Rgb(kInfinity);

@@ -1,0 +1,55 @@
+// renderer/photon_pass.h: photons know whether a smooth lobe scattered them. Gather rays look for
+// the light of those only; what came through a pane or through glass is found by other means.
+#include "renderer/photon_pass.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/renderer/renders.h"
+
+namespace octolux::test {
+namespace {
+
+constexpr std::int64_t kPaths = 1 << 16;
+
+std::vector<Photon> photons_of(const Scene& scene, PhotonKind kind) {
+  const LightSampler lights(scene);
+  return trace_photons(scene, lights, kind, kPaths, {1, 0}).photons;
+}
+
+/// How many photons of a path length are scattered, and how many are not.
+struct Counts {
+  int scattered = 0, straight = 0;
+};
+Counts count(const std::vector<Photon>& photons, int segments) {
+  Counts counts;
+  for (const Photon& p : photons) {
+    if (p.segments == segments) ++(p.scattered ? counts.scattered : counts.straight);
+  }
+  return counts;
+}
+
+TEST(TracePhotons, APaneScattersNothing) {
+  // The wall is met through the pane first, and by what wall and pane reflect from then on.
+  const std::vector<Photon> photons =
+      photons_of(*shipped_scene("glass-pane/glass-pane.xml"), PhotonKind::global);
+  const Counts first = count(photons, 2);
+  EXPECT_EQ(first.scattered, 0);
+  EXPECT_GT(first.straight, 20);
+}
+
+TEST(TracePhotons, GlassScattersNothingAndWallsDo) {
+  const auto scene = shipped_scene("glass-sphere/glass-sphere.xml");
+  const std::vector<Photon> caustics = photons_of(*scene, PhotonKind::caustic);
+  EXPECT_GT(caustics.size(), 100u);
+  for (const Photon& p : caustics) EXPECT_FALSE(p.scattered);
+
+  const std::vector<Photon> all = photons_of(*scene, PhotonKind::global);
+  EXPECT_EQ(count(all, 1).scattered, 0);
+  EXPECT_GT(count(all, 1).straight, 1000);
+  // Into the ball and out of it again, or from a wall and another.
+  EXPECT_GT(count(all, 3).scattered, 1000);
+  EXPECT_GT(count(all, 3).straight, 100);
+}
+
+}  // namespace
+}  // namespace octolux::test
