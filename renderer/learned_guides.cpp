@@ -24,6 +24,9 @@ constexpr std::int64_t kRoundPaths = 1 << 17;
 constexpr std::size_t kPhotons = 1 << 21;
 /// A photon that counts more than so many of the cell's mean would hide what all others tell.
 constexpr float kMostMeans = 3;
+/// The share of the flux that must be left then, the heaviest photon apart. Where several bring
+/// more than all others together, as from the sunlit ground outside a window, too few are known.
+constexpr double kTellingShare = 0.8;
 constexpr std::size_t kParallel = 4 * kCellPhotons;  // photons worth a thread
 
 std::size_t facing_index(Vec3 normal) {
@@ -117,17 +120,22 @@ LearnedGuide LearnedGuides::Tree::guide(std::span<Deposit> deposits) {
   const auto most = static_cast<float>(kMostMeans * flux / static_cast<double>(deposits.size()));
   std::vector<QuadDensity::Point> points;
   points.reserve(deposits.size());
+  double cut = 0, most_cut = 0;  // flux, of all photons and of one
   for (const Deposit& a : deposits) {
     const Vec3 w = frame.to_local(a.wi);  // below the horizon only where the cell is curved
     points.push_back({square_of_disk({w.x, w.y}), w.z > 0 ? std::min(a.flux, most) : 0});
+    const double over = std::max(0.0f, a.flux - most);
+    cut += over;
+    most_cut = std::max(most_cut, over);
   }
+  const bool telling = cut - most_cut < (1 - kTellingShare) * flux;
   const std::span<QuadDensity::Point> all(points);
   const std::span<QuadDensity::Point> below = all.first(all.size() / 2);
   const std::span<QuadDensity::Point> above = all.subspan(all.size() / 2);
   const double unevenness = (mean_at(QuadDensity(below, kLeafPhotons), above) +
                              mean_at(QuadDensity(above, kLeafPhotons), below)) /
                             2;
-  return {normal, QuadDensity(all, kLeafPhotons), static_cast<float>(unevenness)};
+  return {normal, QuadDensity(all, kLeafPhotons), telling ? static_cast<float>(unevenness) : 1};
 }
 
 const LearnedGuide* LearnedGuides::find(Vec3 position, Vec3 normal) const {

@@ -32,7 +32,8 @@ class LearnedGuide {
   LearnedGuide(Vec3 normal, QuadDensity density, float unevenness);
 
   /// As in gather_guide.h: what the photons of each half of the cell say is held against those of
-  /// the other half, so a cell too large for what is near it is not believed.
+  /// the other half, so a cell too large for what is near it is not believed. 1 where a few heavy
+  /// photons bring much of the light: they do not tell where from.
   float unevenness() const { return unevenness_; }
   /// Density [sr^-1] of `sample`.
   float pdf_w(Vec3 wi) const;

@@ -81,6 +81,16 @@ TEST(LearnedGuides, OneHeavyPhotonDoesNotHideTheOthers) {
   const LearnedGuide* guide = guides.find({0.2f, 0.5f, 0}, kUp);
   ASSERT_TRUE(guide);
   EXPECT_GT(guide->pdf_w(kSpot), 10 * cosine_hemisphere_pdf_w(kSpot));
+  EXPECT_GT(guide->unevenness(), 2);
+}
+
+TEST(LearnedGuides, WhereAFewBringMostOfTheLightNothingIsBelieved) {
+  std::vector<Photon> photons = on_floor(400, 0.3);
+  for (std::size_t i = 0; i < 5; ++i) photons[80 * i].flux = Rgb(100);
+  const LearnedGuides guides = learned(photons);
+  const LearnedGuide* guide = guides.find({0.2f, 0.5f, 0}, kUp);
+  ASSERT_TRUE(guide);
+  EXPECT_EQ(guide->unevenness(), 1);
 }
 
 TEST(LearnedGuides, SampleWhatTheirDensitySays) {
