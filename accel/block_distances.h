@@ -28,6 +28,7 @@ struct BlockDistances {
   /// A bit for each lane.
   std::uint32_t nearer_than(float limit) const {
     std::uint32_t lanes = 0;
+    // Unrolled, it is no loop any more when GCC looks for loops to make SIMD of.
 #pragma GCC unroll 1
     for (std::uint32_t i = 0; i < PhotonTree::kBlockSize; ++i) {
       lanes |= static_cast<std::uint32_t>(distance2[i] < limit) << i;

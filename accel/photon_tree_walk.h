@@ -69,6 +69,7 @@ class PhotonTreeWalk {
   template <Order order>
   void descend(Cell& cell, float limit) {
     const PhotonTree::Node node = tree_.nodes_[root_->first + cell.node];
+    // Chosen by comparison: an index would send position and cell through memory at every node.
     const auto is = [&](std::uint32_t axis) { return node.axis == axis; };
     const float along = is(0) ? position_.x : is(1) ? position_.y : position_.z;
     const float difference = along - node.split;
