@@ -63,6 +63,10 @@ class Light {
 
   /// Called once when the scene is complete, before anything is emitted or power() asked.
   virtual void set_scene_bounds(Vec3 /*center*/, float /*radius*/) {}
+
+  /// After that: what matters lies around `focus`, most of it within `near` [m]. Infinite lights
+  /// then send more photons that way, of less flux; 0 makes them forget it.
+  virtual void set_focus(Vec3 /*focus*/, float /*near*/) {}
 };
 
 /// A shape that emits from its front side, cosine-distributed; its radiance may be a texture.

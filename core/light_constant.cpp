@@ -21,13 +21,15 @@ class ConstantLight final : public EnvironmentLight {
   }
 
   EmittedPhoton emit(Vec2 u_position, Vec2 u_direction) const override {
-    const Vec3 wi = sample_sphere(u_direction);
-    return {scene_.incoming(wi, u_position), power()};
+    const SceneSphere::Start start = scene_.incoming(sample_sphere(u_direction), u_position);
+    return {start.ray, radiance_ * (4 * kPi / start.pdf_a)};
   }
 
   Rgb power() const override { return radiance_ * (4 * kPi * scene_.cross_section()); }
 
-  void set_scene_bounds(Vec3 center, float radius) override { scene_ = {center, radius}; }
+  void set_scene_bounds(Vec3 center, float radius) override { scene_ = {center, radius, center}; }
+
+  void set_focus(Vec3 focus, float near) override { scene_.focus = focus, scene_.near = near; }
 
   Rgb radiance(Vec3 /*wi*/) const override { return radiance_; }
   float pdf_w(Vec3 /*wi*/) const override { return is_black(radiance_) ? 0 : kUniformSpherePdfW; }

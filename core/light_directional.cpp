@@ -21,12 +21,15 @@ class DirectionalLight final : public Light {
   }
 
   EmittedPhoton emit(Vec2 u_position, Vec2 /*u_direction*/) const override {
-    return {scene_.incoming(wi_, u_position), power()};
+    const SceneSphere::Start start = scene_.incoming(wi_, u_position);
+    return {start.ray, irradiance_ / start.pdf_a};
   }
 
   Rgb power() const override { return irradiance_ * scene_.cross_section(); }
 
-  void set_scene_bounds(Vec3 center, float radius) override { scene_ = {center, radius}; }
+  void set_scene_bounds(Vec3 center, float radius) override { scene_ = {center, radius, center}; }
+
+  void set_focus(Vec3 focus, float near) override { scene_.focus = focus, scene_.near = near; }
 
  private:
   Vec3 wi_;  // towards the light

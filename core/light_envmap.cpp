@@ -78,12 +78,15 @@ class EnvmapLight final : public EnvironmentLight {
   EmittedPhoton emit(Vec2 u_position, Vec2 u_direction) const override {
     const std::optional<LightSample> s = sample(scene_.center, u_direction);
     if (!s) return {{scene_.center, {0, 0, 1}}, Rgb(0)};
-    return {scene_.incoming(s->wi, u_position), s->radiance * (scene_.cross_section() / s->pdf_w)};
+    const SceneSphere::Start start = scene_.incoming(s->wi, u_position);
+    return {start.ray, s->radiance * (1 / start.pdf_a / s->pdf_w)};
   }
 
   Rgb power() const override { return integral_ * scene_.cross_section(); }
 
-  void set_scene_bounds(Vec3 center, float radius) override { scene_ = {center, radius}; }
+  void set_scene_bounds(Vec3 center, float radius) override { scene_ = {center, radius, center}; }
+
+  void set_focus(Vec3 focus, float near) override { scene_.focus = focus, scene_.near = near; }
 
   Rgb radiance(Vec3 wi) const override { return radiance_at(locate(wi)); }
 

@@ -67,7 +67,7 @@ class AimedLight : public Kind {
     const float share = aimed ? kPortalShare : 1 - kPortalShare;
     u_position.x = std::min(kOneMinusEpsilon, (u_position.x - first) / share);
 
-    Ray ray = scene_.incoming(s->wi, u_position);
+    Ray ray = scene_.incoming(s->wi, u_position).ray;
     int triangle = -1;
     if (aimed) {
       const Portals::Point p = portals_.sample(u_position);
@@ -86,7 +86,7 @@ class AimedLight : public Kind {
   Rgb power() const override { return light_->power(); }
 
   void set_scene_bounds(Vec3 center, float radius) override {
-    scene_ = {center, radius};
+    scene_ = {center, radius, center};
     light_->set_scene_bounds(center, radius);
   }
 

@@ -15,10 +15,10 @@ class SpotLight final : public Light {
       : config_(config),
         position_(config.to_world.point({0, 0, 0})),
         frame_(frame_of(config.to_world)),
-        cos_cutoff_(std::cos(config.cutoff)),
+        versine_(1 - std::cos(config.cutoff)),
         solid_angle_(2 * kPi * 2 * std::sin(config.cutoff / 2) * std::sin(config.cutoff / 2)) {
     power_ = integral(static_cast<double>(solid_angle_), 128,
-                      [this](Vec2 u) { return intensity(sample_cone(u)); });
+                      [this](Vec2 u) { return intensity(sample_cone(u, versine_)); });
   }
 
   std::optional<LightSample> sample(Vec3 x, Vec2 /*u*/) const override {
@@ -26,7 +26,7 @@ class SpotLight final : public Light {
   }
 
   EmittedPhoton emit(Vec2 /*u_position*/, Vec2 u_direction) const override {
-    const Vec3 local = sample_cone(u_direction);
+    const Vec3 local = sample_cone(u_direction, versine_);
     return {{position_, normalize(frame_.to_world(local))}, intensity(local) * solid_angle_};
   }
 
@@ -39,14 +39,6 @@ class SpotLight final : public Light {
   }
 
  private:
-  /// Uniform over the cone's solid angle.
-  Vec3 sample_cone(Vec2 u) const {
-    const float z = 1 - u.x * (1 - cos_cutoff_);
-    const float r = std::sqrt(std::max(0.0f, (1 - z) * (1 + z)));
-    const float phi = 2 * kPi * u.y;
-    return {r * std::cos(phi), r * std::sin(phi), z};
-  }
-
   /// [W sr^-1] along a local direction.
   Rgb intensity(Vec3 w) const {
     const float angle = std::atan2(std::hypot(w.x, w.y), w.z);
@@ -62,7 +54,7 @@ class SpotLight final : public Light {
   SpotConfig config_;
   Vec3 position_;
   Frame frame_;
-  float cos_cutoff_;
+  float versine_;      // of the cutoff
   float solid_angle_;  // [sr] of the cone
   Rgb power_;
 };

@@ -48,6 +48,15 @@ inline Vec3 sample_sphere(Vec2 u) {
 }
 inline constexpr float kUniformSpherePdfW = kInvPi / 4;
 
+/// Uniform in the solid angle around +z where the versine, 1 - cos, is at most `versine`; density
+/// 1 / (2 pi versine).
+inline Vec3 sample_cone(Vec2 u, float versine) {
+  const float v = u.x * versine;  // not by way of the cosine: cones may be very narrow
+  const float r = std::sqrt(v * (2 - v));
+  const float phi = 2 * kPi * u.y;
+  return {r * std::cos(phi), r * std::sin(phi), 1 - v};
+}
+
 /// Van der Corput's radical inverse in base 2, of the low 24 bits.
 inline float radical_inverse(std::uint32_t i) {
   std::uint32_t bits = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "renderer/photon_scatter.h"
 #include "renderer/tracer.h"
 
 namespace octolux {
@@ -13,14 +14,6 @@ namespace {
 constexpr std::int64_t kChunk = 4096;          // paths
 constexpr std::int64_t kBatch = 256 * kChunk;  // paths whose chunks are held at a time
 constexpr double kSpare = 1.02;                // room for photons beyond those expected
-
-/// A photon in flight.
-struct Flight {
-  Ray ray;
-  Rgb flux;          // [W]
-  int segments = 0;  // behind it
-  bool scattered = false;
-};
 
 Stream stream_of(PhotonKind kind) {
   switch (kind) {
@@ -34,23 +27,6 @@ Stream stream_of(PhotonKind kind) {
       return Stream::guide;
   }
   return Stream::global_photon;
-}
-
-/// Scatters the photon at `at` by one of `lobes`, or ends it: Russian roulette by the ratio of new
-/// to old flux, so that survivors keep their flux and the lights' watts do not matter.
-bool scatter(Flight& flight, const Scattering& at, Lobes lobes, Rng& rng) {
-  const float u_lobe = rng.uniform();
-  const Vec2 u = rng.uniform2();
-  const float u_survive = rng.uniform();
-  const std::optional<BsdfSample> sample = at.sample(u_lobe, u, lobes);
-  if (!sample) return false;
-  const Rgb flux = flight.flux * sample->weight;
-  const float survival = std::min(1.0f, max_component(flux) / max_component(flight.flux));
-  if (!(u_survive < survival)) return false;
-  flight.flux = flux / survival;
-  flight.scattered |= any(sample->lobe & Lobes::smooth);
-  flight.ray = at.spawn(sample->wi);
-  return true;
 }
 
 /// Some of the paths of a pass.
@@ -99,7 +75,8 @@ void trace_photon(Tracer& tracer, const EmittedPhoton& start, PhotonKind kind,
   const int max_segments = max_depth < 0 ? 1 << 20 : max_depth - 1;
   const bool caustic = kind == PhotonKind::caustic;
   const Lobes followed = caustic ? Lobes::specular : Lobes::all;
-  Flight flight{start.ray, start.flux, 0};
+  const std::optional<Focus>& focus = tracer.scene().focus;
+  Flight flight{start.ray, start.flux};
   for (int bounces = 0; flight.segments < max_segments; ++bounces) {
     const std::optional<SurfaceHit> hit = tracer.next(flight.ray, flight.flux, flight.segments);
     if (!hit || flight.segments > max_segments) return;
@@ -109,7 +86,7 @@ void trace_photon(Tracer& tracer, const EmittedPhoton& start, PhotonKind kind,
                          flight.segments, hit->point.error, at.facing_shading_normal(),
                          flight.scattered});
     }
-    if (!hit->bsdf->has(followed) || !scatter(flight, at, followed, tracer.rng)) return;
+    if (!hit->bsdf->has(followed) || !scatter(flight, at, followed, focus, tracer.rng)) return;
   }
 }
 

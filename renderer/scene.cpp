@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "renderer/focus.h"
 
 namespace octolux {
 
@@ -56,11 +57,23 @@ void Scene::complete(const LoadProgress& progress) {
     any_specular |= scattering->has(Lobes::specular);
   }
   aim_lights();
+  place_lights();
+}
+
+/// Tells lights where the scene is, and where in it the camera looks.
+void Scene::place_lights() {
   Bounds everything = bounds;
   everything.add(camera_config.to_world.point({0, 0, 0}));
   for (const std::unique_ptr<Light>& light : lights) {
     light->set_scene_bounds(everything.center(), everything.radius());
     if (const auto* sky = dynamic_cast<const EnvironmentLight*>(light.get())) environment = sky;
+  }
+  constexpr float kSmall = 1 / 8.0f;  // of the whole scene; what is seen of others is most of them
+  focus = find_focus(*this);
+  if (focus && !(focus->radius < kSmall * everything.radius())) focus.reset();
+  if (!focus) return;
+  for (const std::unique_ptr<Light>& light : lights) {
+    light->set_focus(focus->center, focus->radius);
   }
 }
 

@@ -14,6 +14,7 @@
 #include "core/light_portal.h"
 #include "core/shape.h"
 #include "core/texture.h"
+#include "renderer/focus.h"
 #include "renderer/load_progress.h"
 
 namespace octolux {
@@ -48,6 +49,7 @@ struct Scene {
   std::vector<const Bsdf*> bsdf_of_shape;
   std::vector<const AreaLight*> area_light_of_shape;  // or nullptr
   Bounds bounds;
+  std::optional<Focus> focus;     // if the camera looks at a small part of the scene
   double total_area = 0;          // of all shapes, at every instance [m^2]
   bool any_pass_through = false;  // some BSDF passes light straight on
   bool any_specular = false;      // some BSDF has a specular lobe, so caustics are possible
@@ -60,6 +62,7 @@ struct Scene {
  private:
   void add_placed_shapes();
   void aim_lights();
+  void place_lights();
 
   std::unique_ptr<Portals> aims_;  // `portals`, as lights use them
 };

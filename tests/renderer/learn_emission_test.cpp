@@ -80,17 +80,20 @@ std::unique_ptr<Scene> daylight(int width, int height) {
   return scene;
 }
 
-/// Flux in the room, all bounces, in the three channels together.
+/// Flux in the room, all bounces, learned and around what the camera sees, against neither.
 TEST(LearnEmission, TheRoomReceivesTheSameDaylight) {
-  const auto scene = daylight(16, 12);
-  const LightSampler lights(*scene);
+  const auto scene = daylight(16, 12), unfocused = daylight(16, 12);
+  ASSERT_TRUE(unfocused->focus);
+  unfocused->focus.reset();
+  for (const std::unique_ptr<Light>& light : unfocused->lights) light->set_focus({}, 0);
+  const LightSampler lights(*scene), everywhere(*unfocused);
   const EmissionDensity uniform,
       learned = learn_emission(*scene, lights, photon_config(1, 20'000)).global;
   ASSERT_FALSE(learned.uniform());
   Running by_learned, by_uniform;
   for (std::uint64_t pass = 0; pass < 30; ++pass) {
     by_learned.add(census(*scene, {lights, learned}, 4'000, {1, pass}).inside);
-    by_uniform.add(census(*scene, {lights, uniform}, 40'000, {1, pass}).inside);
+    by_uniform.add(census(*unfocused, {everywhere, uniform}, 40'000, {1, pass}).inside);
   }
   const double error = std::hypot(by_learned.standard_error(), by_uniform.standard_error());
   EXPECT_GT(z_test_p((by_learned.mean() - by_uniform.mean()) / error), kAlpha)

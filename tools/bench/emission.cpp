@@ -3,7 +3,8 @@
 //   build/bench_emission [SCENE.xml]     (default: the shipped daylight room)
 //
 // Photons per second that are stored where the eye may read them, in the cells of eye_cells.h and
-// inside the room, for emission by power alone, through portals, and learned. The room is the box
+// inside the room, for emission by power alone, around what the camera sees (renderer/focus.h),
+// through portals, and learned. The room is the box
 // of daylight.xml; for another scene only the cells count. The time to learn is listed apart.
 // Medians of several passes within this one process; compare ratios, machines are noisy.
 #include <fmt/format.h>
@@ -66,8 +67,13 @@ void report(const std::string& path, const std::string& with_portals) {
   fmt::print("{}, millions per second\n", path);
   fmt::print("emission                  paths   stored where seen  in room\n");
   const EmissionDensity uniform;
-  const Rates by_power = measure(*scene, {lights, uniform}, cells);
+  const std::unique_ptr<Scene> unfocused = load_scene(path, {});
+  for (const std::unique_ptr<Light>& light : unfocused->lights) light->set_focus({}, 0);
+  unfocused->focus.reset();
+  const LightSampler everywhere(*unfocused);
+  const Rates by_power = measure(*unfocused, {everywhere, uniform}, cells);
   print("by power", by_power, by_power);
+  print("around the focus", measure(*scene, {lights, uniform}, cells), by_power);
   if (!with_portals.empty()) {
     const std::unique_ptr<Scene> marked = load_scene(with_portals, {});
     const LightSampler through(*marked);
