@@ -25,7 +25,7 @@ constexpr std::size_t kPhotons = 1 << 21;
 /// A photon that counts more than so many of the cell's mean would hide what all others tell.
 constexpr float kMostMeans = 3;
 /// The share of the flux that must be left then, the heaviest photon apart. Where several heavy
-/// ones bring the rest, as from the sunlit ground outside a window, too few of them are known.
+/// ones bring the rest, too few of them are known.
 constexpr double kTellingShare = 0.8;
 constexpr std::size_t kParallel = 4 * kCellPhotons;  // photons worth a thread
 
