@@ -15,11 +15,10 @@ constexpr float kSqrt2 = 1.41421356237309505f;
 constexpr float kSqrtHalf = 0.70710678118654752f;
 constexpr float kEighthTurn = kPi / 4;
 
-/// atan2(t, d) for d >= 0; absolute error below 1e-7 (Abramowitz & Stegun 4.4.49).
+/// atan2(t, d) for t, d >= 0; absolute error below 1e-7 (Abramowitz & Stegun 4.4.49).
 inline Float8 angle_of(Float8 t, Float8 d) {
-  const Float8 size = abs8(t);
-  const Float8 low = min8(size, d);
-  const Float8 high = max8(size, d);
+  const Float8 low = min8(t, d);
+  const Float8 high = max8(t, d);
   const Float8 q = low / (high > 0 ? high : splat8(1));
   const Float8 s = q * q;
   Float8 p = splat8(0.0028662257f);
@@ -30,17 +29,16 @@ inline Float8 angle_of(Float8 t, Float8 d) {
   p = p * s - 0.1420889944f;
   p = p * s + 0.1999355085f;
   p = p * s - 0.3333314528f;
-  Float8 a = q + q * s * p;
-  a = size < d ? a : kPi / 2 - a;
-  return t < 0 ? -a : a;
+  const Float8 a = q + q * s * p;
+  return t < d ? a : kPi / 2 - a;
 }
 
 /// The parts of eight sides inside the disc: a side's line is at distance d, and runs from
 /// t = from to t = to along it.
 struct Chords {
   Float8 twice_area;               // of the triangles from the origin to the parts
-  Float8 first_angle, last_angle;  // of the ends, from the direction of the side
   Float8 enters, leaves;           // 1: the disc cut the end off
+  Float8 first_angle, last_angle;  // of ends cut off, from the direction of the side
 };
 
 inline Chords chords(Float8 d, Float8 from, Float8 to, float radius) {
@@ -51,8 +49,10 @@ inline Chords chords(Float8 d, Float8 from, Float8 to, float radius) {
   c.twice_area = d * (last - first);
   c.enters = ones8(first != from);
   c.leaves = ones8(last != to);
-  c.first_angle = angle_of(first, d);
-  c.last_angle = angle_of(last, d);
+  // Ends that are cut off lie where the line meets the circle.
+  const Float8 angle = angle_of(half, d);
+  c.first_angle = first < 0 ? -angle : angle;
+  c.last_angle = last < 0 ? -angle : angle;
   return c;
 }
 
