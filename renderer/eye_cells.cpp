@@ -14,36 +14,14 @@ namespace {
 
 constexpr std::size_t kCellLookUps = 32;  // at most
 constexpr float kMargin = 0.1f;           // of a cell's diagonal
-/// What is nearer to a point than this share of the point's distance to the eye is not told apart:
-/// there the map is not read, but the gather ray goes on (final_gather.h).
+/// What is nearer to a point than this share of the point's distance to the eye is not told apart.
 constexpr float kNear = 1 / 16.0f;
 
 constexpr std::int64_t kEyePaths = 8192;
 constexpr int kGatherRays = 2;
 constexpr std::int64_t kChunk = 256;  // eye paths
 
-/// Places found, and the eye that looks.
-struct Glances {
-  Vec3 eye;
-  std::vector<LookUp> found;
-
-  bool near(Vec3 a, Vec3 b) const { return length(a - b) < kNear * length(a - eye); }
-};
-
-/// Adds the place where `ray` meets the first smooth lobes. Or else those where gather rays from
-/// there read the global map, but for what is near.
-void look(Tracer& tracer, const Ray& ray, PhotonKind kind, Glances& glances) {
-  follow_to_smooth(tracer, ray, [&](const Scattering& at) {
-    if (kind != PhotonKind::global) {
-      glances.found.push_back({at.point().position, at.facing_normal()});
-      return;
-    }
-    gather_from(tracer, at, kGatherRays, [&](const Scattering& there) {
-      if (glances.near(at.point().position, there.point().position)) return;
-      glances.found.push_back({there.point().position, there.facing_normal()});
-    });
-  });
-}
+Vec3 eye_of(const Scene& scene) { return scene.camera_config.to_world.point({0, 0, 0}); }
 
 }  // namespace
 
@@ -104,23 +82,32 @@ int EyeCells::find(Vec3 position, Vec3 normal) const {
   return inside ? cell : -1;
 }
 
+void look_once(Tracer& tracer, PhotonKind kind, const std::function<void(const Scattering&)>& see) {
+  const Vec3 eye = eye_of(tracer.scene());
+  follow_to_smooth(tracer, random_eye_ray(tracer.scene(), tracer.rng), [&](const Scattering& at) {
+    if (kind != PhotonKind::global) return see(at);
+    gather_from(tracer, at, kGatherRays, [&](const Scattering& there) {
+      const Vec3 p = at.point().position, q = there.point().position;
+      if (!(length(q - p) < kNear * length(p - eye))) see(there);
+    });
+  });
+}
+
 EyeCells look_around(const Scene& scene, PhotonKind kind, std::uint64_t seed) {
-  const Vec3 eye = scene.camera_config.to_world.point({0, 0, 0});
-  std::vector<Glances> parts(kEyePaths / kChunk, Glances{eye, {}});
-  parallel_for_chunks(kEyePaths, kChunk,
-                      [&](std::int64_t chunk, std::int64_t begin, std::int64_t end) {
-                        for (std::int64_t i = begin; i < end; ++i) {
-                          const auto index = static_cast<std::uint64_t>(i);
-                          Tracer tracer(scene, Rng(seed, Stream::learning, 0, index));
-                          look(tracer, random_eye_ray(scene, tracer.rng), kind,
-                               parts[static_cast<std::size_t>(chunk)]);
-                        }
-                      });
+  std::vector<std::vector<LookUp>> parts(kEyePaths / kChunk);
+  parallel_for_chunks(
+      kEyePaths, kChunk, [&](std::int64_t chunk, std::int64_t begin, std::int64_t end) {
+        std::vector<LookUp>& part = parts[static_cast<std::size_t>(chunk)];
+        for (std::int64_t i = begin; i < end; ++i) {
+          Tracer tracer(scene, Rng(seed, Stream::learning, 0, static_cast<std::uint64_t>(i)));
+          look_once(tracer, kind, [&part](const Scattering& at) {
+            part.push_back({at.point().position, at.facing_normal()});
+          });
+        }
+      });
   std::vector<LookUp> all;
-  for (const Glances& part : parts) {
-    all.insert(all.end(), part.found.begin(), part.found.end());
-  }
-  return EyeCells(std::move(all), eye);
+  for (const std::vector<LookUp>& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return EyeCells(std::move(all), eye_of(scene));
 }
 
 }  // namespace octolux

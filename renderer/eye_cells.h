@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -50,6 +51,10 @@ class EyeCells {
   std::vector<Node> nodes_;
   std::vector<Cell> cells_;
 };
+
+/// Calls see(at) where one more eye path would read the map of `kind`: of the global map at the end
+/// of gather rays, but for short ones, which go on (final_gather.h).
+void look_once(Tracer& tracer, PhotonKind kind, const std::function<void(const Scattering&)>& see);
 
 /// Where the eye will read the map of `kind`: a few thousand eye paths of their own, on to the end
 /// of gather rays for the global map. The same on any number of threads.

@@ -4,23 +4,22 @@
 #include <algorithm>
 #include <vector>
 
-#include "renderer/scene.h"
+#include "renderer/eye_cells.h"
 
 namespace octolux {
 
 namespace {
 
-constexpr int kSide = 32;  // rays along each side of the film
+constexpr std::uint64_t kEyePaths = 1024;
+constexpr std::size_t kFewest = 64;  // points; fewer tell nothing
 
-std::vector<Vec3> seen_points(const Scene& scene) {
+/// Where the global map will be read; the same in every render of a scene.
+std::vector<Vec3> read_points(const Scene& scene) {
   std::vector<Vec3> points;
-  for (int i = 0; i < kSide * kSide; ++i) {
-    const auto column = static_cast<float>(i % kSide), row = static_cast<float>(i / kSide);
-    const Vec2 pixel{(column + 0.5f) / kSide * static_cast<float>(scene.film.crop_width),
-                     (row + 0.5f) / kSide * static_cast<float>(scene.film.crop_height)};
-    const Ray ray = scene.camera.ray(pixel, {0.5f, 0.5f});
-    const std::optional<RayHit> hit = scene.caster->closest(ray);
-    if (hit) points.push_back(ray.origin + ray.direction * hit->t);
+  for (std::uint64_t i = 0; i < kEyePaths; ++i) {
+    Tracer tracer(scene, Rng(0, Stream::learning, 1, i));
+    look_once(tracer, PhotonKind::global,
+              [&points](const Scattering& at) { points.push_back(at.point().position); });
   }
   return points;
 }
@@ -38,8 +37,8 @@ float median(const std::vector<Vec3>& points, const Value& value) {
 }  // namespace
 
 std::optional<Focus> find_focus(const Scene& scene) {
-  const std::vector<Vec3> points = seen_points(scene);
-  if (points.empty()) return std::nullopt;
+  const std::vector<Vec3> points = read_points(scene);
+  if (points.size() < kFewest) return std::nullopt;
   const Vec3 center{median(points, [](Vec3 p) { return p.x; }),
                     median(points, [](Vec3 p) { return p.y; }),
                     median(points, [](Vec3 p) { return p.z; })};

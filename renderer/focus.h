@@ -1,5 +1,6 @@
-// What the camera looks at, and how wide that is: of a scene with ground for a kilometre around a
-// house the room. Photons of sun and sky are worth most there (core/scene_sphere.h).
+// Where photons will be read, and how wide that is: of a scene with ground for a kilometre around a
+// house the room, and of a detail of the room as well, as gather rays go through all of it. Photons
+// of sun and sky are worth most there (core/scene_sphere.h, photon_scatter.h).
 #pragma once
 
 #include <optional>
@@ -12,11 +13,11 @@ struct Scene;
 
 struct Focus {
   Vec3 center;
-  float radius = 0;  // [m] half of what is seen is nearer to the center
+  float radius = 0;  // [m] half of what is read is nearer to the center
 };
 
-/// By rays through a grid over the film; empty if nothing is seen. The scene's caster and camera
-/// are ready.
+/// By some eye paths; empty if hardly any gather ray meets a surface. The scene is complete but for
+/// its lights.
 std::optional<Focus> find_focus(const Scene& scene);
 
 }  // namespace octolux

@@ -10,9 +10,9 @@ namespace octolux {
 
 namespace {
 
-constexpr float kAimed = 0.25f;    // share of photons outside
-constexpr float kTarget = 2;       // radius of what they are aimed at, in those of the focus
-constexpr float kOutside = 1.25f;  // so many radii of the target away from its centre
+constexpr float kAimed = 0.25f;   // share of photons outside
+constexpr float kTarget = 1.5f;   // radius of what they are aimed at, in those of the focus
+constexpr float kOutside = 1.5f;  // so many radii of the target away from its centre
 
 /// The directions in which photons are aimed: those to a sphere that is seen from outside.
 struct Cone {

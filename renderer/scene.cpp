@@ -1,6 +1,7 @@
 // What follows from a scene's lists: the ray caster, the lights of shapes, the bounds of lights.
 #include "renderer/scene.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -60,7 +61,7 @@ void Scene::complete(const LoadProgress& progress) {
   place_lights();
 }
 
-/// Tells lights where the scene is, and where in it the camera looks.
+/// Tells lights where the scene is, and where in it they are wanted.
 void Scene::place_lights() {
   Bounds everything = bounds;
   everything.add(camera_config.to_world.point({0, 0, 0}));
@@ -68,8 +69,11 @@ void Scene::place_lights() {
     light->set_scene_bounds(everything.center(), everything.radius());
     if (const auto* sky = dynamic_cast<const EnvironmentLight*>(light.get())) environment = sky;
   }
-  constexpr float kSmall = 1 / 8.0f;  // of the whole scene; what is seen of others is most of them
-  focus = find_focus(*this);
+  // Worth a focus: light from far away, and a small part of the scene that it is wanted in.
+  constexpr float kSmall = 1 / 8.0f;
+  const bool far =
+      std::any_of(lights.begin(), lights.end(), [](const auto& l) { return !l->extent(); });
+  if (far) focus = find_focus(*this);
   if (focus && !(focus->radius < kSmall * everything.radius())) focus.reset();
   if (!focus) return;
   for (const std::unique_ptr<Light>& light : lights) {

@@ -49,7 +49,7 @@ struct Scene {
   std::vector<const Bsdf*> bsdf_of_shape;
   std::vector<const AreaLight*> area_light_of_shape;  // or nullptr
   Bounds bounds;
-  std::optional<Focus> focus;     // if the camera looks at a small part of the scene
+  std::optional<Focus> focus;     // of light from far away, if that is a small part of the scene
   double total_area = 0;          // of all shapes, at every instance [m^2]
   bool any_pass_through = false;  // some BSDF passes light straight on
   bool any_specular = false;      // some BSDF has a specular lobe, so caustics are possible

@@ -31,7 +31,28 @@ TEST(Focus, IsInTheRoom) {
   }
 }
 
-TEST(Focus, IsOfNoUseWhereAllIsSeen) {
+/// Of a window's glazing bar or a corner's last centimetre, too: light is read all over the room.
+TEST(Focus, OfADetailIsTheRoom) {
+  const auto scene = shipped_scene("daylight/daylight.xml");
+  const Focus wide = scene->focus.value();
+  for (const Vec3 target : {Vec3{-2.5f, 0, -2}, Vec3{1, 1, -2}}) {
+    scene->camera_config.to_world = *look_at({2, 1.5f, 1}, target, {0, 1, 0});
+    scene->camera_config.fov_x_degrees *= 0.01f;
+    scene->camera = Camera(scene->camera_config, scene->film);
+    const std::optional<Focus> detail = find_focus(*scene);
+    ASSERT_TRUE(detail);
+    EXPECT_LT(length(detail->center - wide.center), 1.5f * wide.radius);
+    EXPECT_GT(detail->radius, 0.25f * wide.radius);
+    EXPECT_LT(detail->radius, 2 * wide.radius);
+  }
+}
+
+TEST(Focus, IsOfNoUseWhereAllIsLit) {
+  const auto closed = scene_from("<scene version='3.0.0'>" +  // a corner, seen from close
+                                 sensor_xml("0.2, 0.1, 0.3", "-1, -1, -1", 0.5, 8, 8) +
+                                 "<shape type='cube'><boolean name='flip_normals' value='true'/>"
+                                 "<emitter type='area'/></shape></scene>");
+  EXPECT_FALSE(closed->focus);
   EXPECT_FALSE(shipped_scene("cornell/cornell.xml")->focus);
   EXPECT_FALSE(scene_from("<scene version='3.0.0'>" + sensor_xml("0, 0, 9", "0, 0, 10", 40, 8, 8) +
                           "<shape type='cube'/><emitter type='constant'/></scene>")

@@ -3,9 +3,9 @@
 //   build/bench_emission [SCENE.xml]     (default: the shipped daylight room)
 //
 // Photons per second that are stored where the eye may read them, in the cells of eye_cells.h and
-// inside the room, for emission by power alone, around what the camera sees (renderer/focus.h),
-// through portals, and learned. The room is the box
-// of daylight.xml; for another scene only the cells count. The time to learn is listed apart.
+// inside the room, for emission by power alone, around where photons are read (focus.h), through
+// portals, and learned. The room is the box of daylight.xml; for another scene only the cells count.
+// The time to learn is listed apart.
 // Medians of several passes within this one process; compare ratios, machines are noisy.
 #include <fmt/format.h>
 
