@@ -2,8 +2,8 @@
 //
 // Inside the focus, where photons are read (focus.h), as the surface scatters. Of light outside, on
 // the ground around a house, hardly any finds the window, and so few photons of so much flux would
-// be seen as specks. There some are aimed: into the cone under which the focus is seen, with so much
-// less flux. Both ways together have one density, so either carries what the balance heuristic
+// be seen as specks. There some are aimed: into the cone under which the focus is seen, with so
+// much less flux. Both ways together have one density, so either carries what the balance heuristic
 // leaves it (Veach 1997, 9.2.2), and none from outside that comes near the focus is heavy.
 #pragma once
 

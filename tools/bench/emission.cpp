@@ -4,9 +4,9 @@
 //
 // Photons per second that are stored where the eye may read them, in the cells of eye_cells.h and
 // inside the room, for emission by power alone, around where photons are read (focus.h), through
-// portals, and learned. The room is the box of daylight.xml; for another scene only the cells count.
-// The time to learn is listed apart.
-// Medians of several passes within this one process; compare ratios, machines are noisy.
+// portals, and learned. The room is the box of daylight.xml; for another scene only the cells
+// count. The time to learn is listed apart. Medians of several passes within this one process;
+// compare ratios, machines are noisy.
 #include <fmt/format.h>
 
 #include "core/error.h"
