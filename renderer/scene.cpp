@@ -73,12 +73,14 @@ void Scene::place_lights() {
   constexpr float kSmall = 1 / 8.0f;
   const bool far =
       std::any_of(lights.begin(), lights.end(), [](const auto& l) { return !l->extent(); });
-  if (far) focus = find_focus(*this);
-  if (focus && !(focus->radius < kSmall * everything.radius())) focus.reset();
-  if (!focus) return;
-  for (const std::unique_ptr<Light>& light : lights) {
-    light->set_focus(focus->center, focus->radius);
-  }
+  const std::optional<Focus> found = far ? find_focus(*this) : std::nullopt;
+  if (found && found->radius < kSmall * everything.radius()) set_focus(found);
+}
+
+void Scene::set_focus(const std::optional<Focus>& wanted) {
+  focus = wanted;
+  const Focus f = wanted.value_or(Focus{});
+  for (const std::unique_ptr<Light>& light : lights) light->set_focus(f.center, f.radius);
 }
 
 }  // namespace octolux

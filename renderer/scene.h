@@ -58,6 +58,8 @@ struct Scene {
 
   /// Builds what follows from the lists above. Call once after loading; then nothing may change.
   void complete(const LoadProgress& progress = {});
+  /// Where photons are sought instead of where complete() found; or nowhere.
+  void set_focus(const std::optional<Focus>& wanted);
 
  private:
   void add_placed_shapes();

@@ -37,7 +37,7 @@ TEST(Focus, OfADetailIsTheRoom) {
   const Focus wide = scene->focus.value();
   for (const Vec3 target : {Vec3{-2.5f, 0, -2}, Vec3{1, 1, -2}}) {
     scene->camera_config.to_world = *look_at({2, 1.5f, 1}, target, {0, 1, 0});
-    scene->camera_config.fov_x_degrees *= 0.01f;
+    scene->camera_config.fov_x_degrees = 0.01f;
     scene->camera = Camera(scene->camera_config, scene->film);
     const std::optional<Focus> detail = find_focus(*scene);
     ASSERT_TRUE(detail);
@@ -72,10 +72,11 @@ double noise(const Scene& scene) {
   return relative[relative.size() / 2];
 }
 
-/// A room on 4000 times the ground: the same light (path tracer), and hardly more noise.
+/// A room on 4000 times the ground: the same light (path tracer), and no more noise; the median of
+/// 432 variances of 8 passes is known to some 3 %, and without a focus it is 1.7 times as much.
 TEST(FocusSlow, WideGroundCostsNothing) {
   const auto narrow = daylight_on(60), wide = daylight_on(4000);
-  EXPECT_LT(noise(*wide), 2 * noise(*narrow));
+  EXPECT_LT(noise(*wide), 1.3 * noise(*narrow));
   const Running path = pass_means(*wide, path_config(10'000));
   const Running photon = pass_means(*wide, photon_config(60, 100'000));
   const double error = std::hypot(path.standard_error(), photon.standard_error());

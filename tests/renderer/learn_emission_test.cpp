@@ -80,12 +80,11 @@ std::unique_ptr<Scene> daylight(int width, int height) {
   return scene;
 }
 
-/// Flux in the room, all bounces, learned and around what the camera sees, against neither.
+/// Flux in the room, all bounces, learned and around where photons are read, against neither.
 TEST(LearnEmission, TheRoomReceivesTheSameDaylight) {
   const auto scene = daylight(16, 12), unfocused = daylight(16, 12);
   ASSERT_TRUE(unfocused->focus);
-  unfocused->focus.reset();
-  for (const std::unique_ptr<Light>& light : unfocused->lights) light->set_focus({}, 0);
+  unfocused->set_focus(std::nullopt);
   const LightSampler lights(*scene), everywhere(*unfocused);
   const EmissionDensity uniform,
       learned = learn_emission(*scene, lights, photon_config(1, 20'000)).global;

@@ -79,7 +79,7 @@ TEST(PhotonScatter, NoPhotonThatMeetsTheFocusIsHeavy) {
     for (int i = 0; i < 20'000; ++i) {
       const std::optional<Flight> f = ground.scattered(focus, rng);
       if (!f) continue;
-      EXPECT_LE(f->flux.g, 1.01f / 0.75f);
+      EXPECT_LE(f->flux.g, 1.001f);  // roulette keeps flux
       const double off = static_cast<double>(length(cross(focus.center / 10, f->ray.direction)));
       if (off > 0.9 * sine || dot(focus.center, f->ray.direction) < 0) continue;
       ++met;

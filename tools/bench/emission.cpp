@@ -68,8 +68,7 @@ void report(const std::string& path, const std::string& with_portals) {
   fmt::print("emission                  paths   stored where seen  in room\n");
   const EmissionDensity uniform;
   const std::unique_ptr<Scene> unfocused = load_scene(path, {});
-  for (const std::unique_ptr<Light>& light : unfocused->lights) light->set_focus({}, 0);
-  unfocused->focus.reset();
+  unfocused->set_focus(std::nullopt);
   const LightSampler everywhere(*unfocused);
   const Rates by_power = measure(*unfocused, {everywhere, uniform}, cells);
   print("by power", by_power, by_power);
