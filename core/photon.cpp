@@ -59,7 +59,6 @@ PhotonPayload pack(const Photon& photon) {
   payload.wi = pack_direction(photon.wi, kWiBits);
   payload.normal_segments =
       pack_direction(photon.normal, kNormalBits) << 8 |
-      static_cast<std::uint32_t>(photon.scattered) << 7 |
       static_cast<std::uint32_t>(std::clamp(photon.segments, 1, kMaxSegments));
   return payload;
 }

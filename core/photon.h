@@ -11,18 +11,21 @@
 
 namespace octolux {
 
-inline constexpr int kMaxSegments = 127;  // told apart; longer paths count as so long
+inline constexpr int kMaxSegments = 255;  // told apart; longer paths count as so long
 
 struct Photon {
-  Vec3 position;           // [m]
-  Vec3 wi;                 // unit, towards where it came from
-  Vec3 normal;             // geometric normal on the side it arrived from: dot(normal, wi) > 0
-  Rgb flux;                // [W], already divided by the number of emitted paths
-  int segments = 1;        // path segments from the light to here, 1 to kMaxSegments
-  float error = 0;         // [m] bound on the error of the position; not kept in maps
-  Vec3 ns{};               // shading normal on the side of `normal`; not kept in maps
-  bool scattered = false;  // by a smooth lobe on its way? If not, direct light or a caustic
+  Vec3 position;     // [m]
+  Vec3 wi;           // unit, towards where it came from
+  Vec3 normal;       // geometric normal on the side it arrived from: dot(normal, wi) > 0
+  Rgb flux;          // [W], already divided by the number of emitted paths
+  int segments = 1;  // path segments from the light to here, 1 to kMaxSegments
+  float error = 0;   // [m] bound on the error of the position; not kept in maps
+  Vec3 ns{};         // shading normal on the side of `normal`; not kept in maps
+  float flown = 0;   // [m] since a smooth lobe scattered it last, 0 if none has; not in maps
 };
+
+/// By a smooth lobe? If not, it is direct light or a caustic.
+inline bool scattered(const Photon& p) { return p.flown > 0; }
 
 /// Finite, and of no negative flux?
 inline bool is_usable(const Photon& p) {
@@ -32,8 +35,8 @@ inline bool is_usable(const Photon& p) {
 
 /// Everything but the position. flux: three 18-bit mantissas with a shared exponent (relative
 /// precision 4e-6 of the largest channel, exact under powers of two). wi: octahedral 2 x 16 bits
-/// (Cigolle et al., JCGT 3(2), 2014); normal: octahedral 2 x 12 bits; scattered: 1 bit;
-/// segments: 7 bits.
+/// (Cigolle et al., JCGT 3(2), 2014); normal: octahedral 2 x 12 bits;
+/// segments: 8 bits.
 struct PhotonPayload {
   std::uint64_t flux = 0;
   std::uint32_t wi = 0;
@@ -84,7 +87,6 @@ PhotonPayload pack(const Photon& photon);
 inline int segments(const PhotonPayload& p) {
   return static_cast<int>(p.normal_segments & kMaxSegments);
 }
-inline bool scattered(const PhotonPayload& p) { return (p.normal_segments & 0x80) != 0; }
 inline Vec3 normal(const PhotonPayload& p) {
   return unpack_direction(p.normal_segments >> 8, kNormalBits);
 }

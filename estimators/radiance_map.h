@@ -28,20 +28,15 @@ class RadianceMap {
   }
   float k(float s) const { return estimator_->k(s); }
 
-  /// The `neighbours` photons nearest to the point, and the bandwidth [m] of their look-up.
-  struct Neighbourhood {
-    std::span<const Neighbour> photons;
-    float bandwidth = 0;
-  };
-  /// The photons are in memory of this thread that the next call overwrites.
-  Neighbourhood neighbourhood(const GatherPoint& at, int neighbours) const {
+  /// The bandwidth [m] of a look-up of `neighbours` photons there.
+  float bandwidth_at(const GatherPoint& at, int neighbours) const {
     thread_local NeighbourBuffer buffer;
     const auto wanted = static_cast<std::size_t>(neighbours) + 1;
     const std::span<const Neighbour> found =
         photons_.nearest(photon_query(at, bandwidth_), wanted, buffer);
     const bool full = found.size() == wanted;
     const float radius = full ? std::sqrt(found.back().distance2) : bandwidth_.max_radius;
-    return {found, radius * bandwidth_.shrink};
+    return radius * bandwidth_.shrink;
   }
 
  private:

@@ -41,7 +41,7 @@ GatherPoint FinalGather::gather_point(Tracer& tracer, const Scattering& at, int 
 
 /// What the eye sees gathers along the pixel's own sequence, so that its passes complement each
 /// other; what lies behind is met anew in every pass. Rays that follow the BSDF and those that
-/// follow guides have sequences of their own: half of each sample's points of one would not be
+/// follow the guide have sequences of their own: half of each sample's points of one would not be
 /// spread evenly through the passes.
 GatherDirections::Points FinalGather::gather_points(Tracer& tracer, const Level& level,
                                                     int guided) const {
@@ -63,11 +63,19 @@ LightPoints FinalGather::light_points(Tracer& tracer, const Level& level, int n)
           tracer.sequence.points(PixelUse::light_choice, level.segments, 1)};
 }
 
+/// [m]
+float FinalGather::read_distance(const GatherPoint& at) const {
+  const std::optional<float> shared = maps_.records.bandwidth(at);
+  const float bandwidth =
+      shared ? *shared : mean_bandwidth(maps_.global, at, config_.estimator.neighbours);
+  return static_cast<float>(config_.eye.retrace) * bandwidth;
+}
+
 SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at, int segments) const {
   if (!config_.eye.gather) {
     return {Rgb(0), Rgb(0), maps_.global.radiance(gather_point(tracer, at, segments))};
   }
-  return radiance(tracer, at, {segments, config_.eye.gather_rays, -1, 0});
+  return radiance(tracer, at, {segments, config_.eye.gather_rays, 0, 0});
 }
 
 SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
@@ -89,19 +97,13 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
     out.caustic = maps_.caustic.radiance(point) / caustic_chance;
   }
 
+  const bool first = level.retraces == 0;
   Level next = level;
-  Surroundings own;
-  const Surroundings* around = &own;
-  const LearnedGuide* guide = nullptr;
-  if (next.read_distance < 0) {
-    around = maps_.records.surroundings(point);
-    if (!around) around = &(own = survey(maps_.global, point, config_.estimator.neighbours));
-    guide = learned_.guides.find(at.point().position, at.facing_normal());
-    next.read_distance = static_cast<float>(config_.eye.retrace) * around->bandwidth;
-  }
-  const GuidePair guides(around->guide, guide);
-  const int guided = GatherDirections::guided(guides, level.rays);
-  const GatherDirections directions(at, guides, level.rays, gather_points(tracer, level, guided));
+  if (first) next.read_distance = read_distance(point);
+  const LobeMixture guide =
+      first ? learned_.guides.at(lit.position, at.facing_normal()) : LobeMixture();
+  const int guided = GatherDirections::guided(guide, level.rays);
+  const GatherDirections directions(at, guide, level.rays, gather_points(tracer, level, guided));
   for (int i = 0; i < level.rays; ++i) {
     std::optional<GatherDirection> chosen = directions.draw(i, tracer.rng);
     if (!chosen) continue;

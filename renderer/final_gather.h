@@ -7,7 +7,7 @@
 #include "estimators/radiance_map.h"
 #include "renderer/config.h"
 #include "renderer/direct_light.h"
-#include "renderer/gather_guide.h"
+#include "renderer/gather_directions.h"
 #include "renderer/gather_records.h"
 #include "renderer/learned_guides.h"
 #include "renderer/learned_lights.h"
@@ -50,7 +50,7 @@ class FinalGather {
   struct Level {
     int segments;         // from the eye to this point
     int rays;             // gather rays to send
-    float read_distance;  // [m] shorter gather rays go on; negative: not known yet
+    float read_distance;  // [m] shorter gather rays go on; of the first level not known yet
     int retraces;         // how often this path has gone on
   };
   SplitRadiance radiance(Tracer& tracer, const Scattering& at, const Level& level) const;
@@ -59,6 +59,7 @@ class FinalGather {
   GatherDirections::Points gather_points(Tracer& tracer, const Level& level, int guided) const;
   LightPoints light_points(Tracer& tracer, const Level& level, int n) const;
   GatherPoint gather_point(Tracer& tracer, const Scattering& at, int segments) const;
+  float read_distance(const GatherPoint& at) const;
   int remaining(int segments) const;
 
   const Scene& scene_;

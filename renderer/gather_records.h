@@ -1,6 +1,7 @@
 // What gather rays share within a pass (Christensen, "Faster photon map global illumination",
 // Journal of Graphics Tools 4(3), 1999): of the many that end near a record (record_sites.h) only
-// the first pays for a look-up, and of the points they leave from only the first pays for a guide.
+// the first pays for a look-up, and of the points they leave from only the first finds the
+// bandwidth around it.
 // Diffuse surfaces share irradiance; to others a record lends the photons it found, whose flux each
 // scatters by its own BSDF. All are made when they are asked for first, so places nobody looks at
 // cost nothing.
@@ -14,19 +15,14 @@
 #include "core/bsdf.h"
 #include "estimators/clearing.h"
 #include "estimators/radiance_map.h"
-#include "renderer/gather_guide.h"
 #include "renderer/lazy.h"
 #include "renderer/record_sites.h"
 
 namespace octolux {
 
-/// What the photons around a point tell a final gather there.
-struct Surroundings {
-  GatherGuide guide;
-  float bandwidth = 0;  // [m] of look-ups there
-};
-/// From the photons nearest to the point: the bandwidth as if there were `neighbours` of them.
-Surroundings survey(const RadianceMap& map, const GatherPoint& at, int neighbours);
+/// The bandwidth [m] of look-ups of `neighbours` photons around the point, told by more photons
+/// than those, evener than one look-up has it.
+float mean_bandwidth(const RadianceMap& map, const GatherPoint& at, int neighbours);
 
 /// What all records of a pass have in common.
 struct RecordConfig {
@@ -48,11 +44,11 @@ class GatherRecords {
   using Arrivals = std::vector<Arriving>;
 
  public:
-  /// Without surroundings and arrivals, which few records are asked for.
+  /// Without arrivals, which few records are asked for.
   static constexpr double kBytesPerRecord =
       RecordSites::kBytesPerSite + kDepths * LazyValues<Rgb>::kBytesPerValue +
-      LazyValues<float>::kBytesPerValue + LazyValues<Clearing>::kBytesPerValue +
-      (1 + kDepths) * sizeof(void*);
+      2 * LazyValues<float>::kBytesPerValue + LazyValues<Clearing>::kBytesPerValue +
+      kDepths * sizeof(void*);
 
   GatherRecords() = default;
   /// The map and the caster must outlive the records and stay where they are.
@@ -62,8 +58,8 @@ class GatherRecords {
   /// Radiance [W m^-2 sr^-1] leaving the point through its smooth lobes; empty if no record serves
   /// it.
   std::optional<Rgb> radiance(const GatherPoint& at) const;
-  /// What a record near the point found around itself; nullptr if none serves it.
-  const Surroundings* surroundings(const GatherPoint& at) const;
+  /// The mean bandwidth [m] near the point; empty if no record serves it.
+  std::optional<float> bandwidth(const GatherPoint& at) const;
 
  private:
   /// A record, and which of its values counts the photons asked for.
@@ -93,7 +89,7 @@ class GatherRecords {
   LazyObjects<Arrivals> arrivals_;  // kDepths per record
   LazyValues<float> reach_;         // [m] as RecordSites has it
   LazyValues<Clearing> clearing_;   // of the record's reach
-  LazyObjects<Surroundings> surroundings_;
+  LazyValues<float> bandwidth_;     // [m]
 };
 
 }  // namespace octolux

@@ -8,7 +8,6 @@
 #include "accel/facing.h"
 #include "core/constants.h"
 #include "core/parallel.h"
-#include "core/sampling.h"
 #include "core/shape.h"
 
 namespace octolux {
@@ -16,54 +15,33 @@ namespace octolux {
 namespace {
 
 constexpr std::size_t kCellPhotons = 512;  // at most
-constexpr std::size_t kLeafPhotons = 8;    // of a cell's density, fewer
 /// How much is learned from: so many paths a pixel, traced in rounds, until there are so many
-/// photons (of 40 bytes); more teach little.
-constexpr std::int64_t kPathsPerPixel = 4;
+/// photons (of 40 bytes). With 8 paths a pixel the noise of five interiors after 8 passes was 0.94
+/// to 1.09 of that with 16.
+constexpr std::int64_t kPathsPerPixel = 16;
 constexpr std::int64_t kRoundPaths = 1 << 17;
 constexpr std::size_t kPhotons = 1 << 21;
 /// A photon that counts more than so many of the cell's mean would hide what all others tell.
 constexpr float kMostMeans = 3;
-/// The share of the flux that must be left then, the heaviest photon apart. Where several heavy
-/// ones bring the rest, too few of them are known.
-constexpr double kTellingShare = 0.8;
+/// The unevenness from which on rays follow a guide. With 1.2 the noise of five interiors was 1.00
+/// to 1.10 of that with 1.5.
+constexpr float kWorthFollowing = 1.5f;
+constexpr float kMinCosine = 0.01f;                  // divisor
 constexpr std::size_t kParallel = 4 * kCellPhotons;  // photons worth a thread
 
 std::size_t facing_index(Vec3 normal) {
   return static_cast<std::size_t>(std::countr_zero(facing(normal)));
 }
 
-/// The mean, by mass, of a density at points it was not made from.
-double mean_at(const QuadDensity& density, std::span<const QuadDensity::Point> points) {
-  double sum = 0, mass = 0;
-  for (const QuadDensity::Point& p : points) {
-    sum += static_cast<double>(p.mass) * density(p.u);
-    mass += p.mass;
-  }
-  return mass > 0 ? sum / mass : 1;
-}
-
 }  // namespace
-
-LearnedGuide::LearnedGuide(Vec3 normal, QuadDensity density, float unevenness)
-    : frame_(Frame::from_normal(normal)), density_(std::move(density)), unevenness_(unevenness) {}
-
-float LearnedGuide::pdf_w(Vec3 wi) const {
-  const Vec3 w = frame_.to_local(wi);
-  const float cosine_pdf_w = cosine_hemisphere_pdf_w(w);
-  return cosine_pdf_w > 0 ? cosine_pdf_w * density_(square_of_disk({w.x, w.y})) : 0;
-}
-
-Vec3 LearnedGuide::sample(Vec2 u) const {
-  return frame_.to_world(sample_cosine_hemisphere(density_.sample(u)));
-}
 
 void LearnedGuides::add(const std::vector<Photon>& photons) {
   for (const Photon& p : photons) {
     const float flux = luminance(p.flux);
     // Next-event estimation and the caustic map bring the others.
-    if (!p.scattered || !is_usable(p) || !(flux > 0)) continue;
-    deposits_[facing_index(p.normal)].push_back({p.position, p.wi, p.normal, flux});
+    if (!scattered(p) || !is_usable(p) || !(flux > 0)) continue;
+    const Vec3 origin = p.position + p.wi * p.flown;
+    deposits_[facing_index(p.normal)].push_back({p.position, origin, p.normal, flux});
     ++photons_;
   }
 }
@@ -109,33 +87,41 @@ void LearnedGuides::Tree::build(std::span<Deposit> deposits, std::size_t node) {
 
 LearnedGuide LearnedGuides::Tree::guide(std::span<Deposit> deposits) {
   split(deposits);
-  Vec3 normal{};
+  Bounds bounds;
   double flux = 0;
-  for (const Deposit& a : deposits) {
-    normal += a.normal;
-    flux += a.flux;
+  for (const Deposit& d : deposits) {
+    bounds.add(d.position);
+    flux += d.flux;
   }
-  normal = normalize(normal);
-  const Frame frame = Frame::from_normal(normal);
   const auto most = static_cast<float>(kMostMeans * flux / static_cast<double>(deposits.size()));
-  std::vector<QuadDensity::Point> points;
-  points.reserve(deposits.size());
-  double cut = 0, most_cut = 0;  // flux, of all photons and of one
-  for (const Deposit& a : deposits) {
-    const Vec3 w = frame.to_local(a.wi);  // below the horizon only where the cell is curved
-    points.push_back({square_of_disk({w.x, w.y}), w.z > 0 ? std::min(a.flux, most) : 0});
-    const double over = std::max(0.0f, a.flux - most);
-    cut += over;
-    most_cut = std::max(most_cut, over);
+  std::vector<LightOrigins::Photon> photons;
+  photons.reserve(deposits.size());
+  for (Deposit& d : deposits) {
+    d.flux = std::min(d.flux, most);
+    photons.push_back({d.origin, d.flux});
   }
-  const bool telling = cut - most_cut < (1 - kTellingShare) * flux;
-  const std::span<QuadDensity::Point> all(points);
-  const std::span<QuadDensity::Point> below = all.first(all.size() / 2);
-  const std::span<QuadDensity::Point> above = all.subspan(all.size() / 2);
-  const double unevenness = (mean_at(QuadDensity(below, kLeafPhotons), above) +
-                             mean_at(QuadDensity(above, kLeafPhotons), below)) /
-                            2;
-  return {normal, QuadDensity(all, kLeafPhotons), telling ? static_cast<float>(unevenness) : 1};
+  const std::span<const LightOrigins::Photon> all(photons);
+  const Vec3 center = bounds.center();
+  const std::size_t half = all.size() / 2;
+  const LightOrigins below(all.first(half), center), above(all.subspan(half), center);
+  const float u =
+      unevenness(below, deposits.subspan(half)) + unevenness(above, deposits.first(half));
+  return {LightOrigins(all, center), u / 2};
+}
+
+float LearnedGuides::Tree::unevenness(const LightOrigins& origins,
+                                      std::span<const Deposit> others) {
+  double sum = 0, flux = 0;
+  for (const Deposit& d : others) {
+    const Vec3 wi = normalize(d.origin - d.position);
+    const float cosine = std::max(kMinCosine, dot(wi, d.normal));
+    const double ratio =
+        static_cast<double>(origins.seen_from(d.position).pdf_w(wi)) * kPi / cosine;
+    if (!std::isfinite(ratio)) continue;  // it did not fly
+    sum += d.flux * ratio;
+    flux += d.flux;
+  }
+  return flux > 0 ? static_cast<float>(sum / flux) : 1;
 }
 
 const LearnedGuide* LearnedGuides::find(Vec3 position, Vec3 normal) const {
@@ -147,6 +133,12 @@ const LearnedGuide* LearnedGuides::find(Vec3 position, Vec3 normal) const {
     node = 2 * node + (position[split.axis] < split.at ? 1 : 2);
   }
   return &tree.cells[node - tree.splits.size()];
+}
+
+LobeMixture LearnedGuides::at(Vec3 position, Vec3 normal) const {
+  const LearnedGuide* guide = find(position, normal);
+  if (!guide || !(guide->unevenness > kWorthFollowing)) return {};
+  return guide->origins.seen_from(position);
 }
 
 LearnedGuides learn_guides(const Scene& scene, const PhotonSource& source,

@@ -7,8 +7,7 @@
 // a checkpoint learns the same again.
 //
 // The surfaces that light reaches are cut into cells of about equal numbers of photons. A cell
-// keeps the density of the directions they came from, relative to the cosine's: flat where light
-// comes evenly.
+// keeps where they flew from (light_origins.h).
 #pragma once
 
 #include <array>
@@ -17,33 +16,21 @@
 #include <vector>
 
 #include "accel/facing.h"
-#include "core/frame.h"
 #include "core/photon.h"
-#include "core/quad_density.h"
 #include "renderer/config.h"
+#include "renderer/light_origins.h"
 #include "renderer/photon_pass.h"
 
 namespace octolux {
 
-/// A density over the hemisphere around a cell's mean normal, fixed once made.
-class LearnedGuide {
- public:
-  LearnedGuide() = default;
-  LearnedGuide(Vec3 normal, QuadDensity density, float unevenness);
-
-  /// As in gather_guide.h: what the photons of each half of the cell say is held against those of
-  /// the other half, so a cell too large for what is near it is not believed. 1 where a few heavy
-  /// photons bring much of the light: they do not tell where from.
-  float unevenness() const { return unevenness_; }
-  /// Density [sr^-1] of `sample`.
-  float pdf_w(Vec3 wi) const;
-  /// A direction, not always above the surface at hand. `u` uniform in [0, 1)^2.
-  Vec3 sample(Vec2 u) const;
-
- private:
-  Frame frame_;
-  QuadDensity density_;  // of the point whose cosine-distributed direction it is
-  float unevenness_ = 1;
+/// What is known in one cell, fixed once made.
+struct LearnedGuide {
+  LightOrigins origins;
+  /// The second moment of radiance times cosine, were directions chosen by the cosine, over that of
+  /// the best choice: 1 where light comes evenly from everywhere. What the photons of each half of
+  /// the cell say is held against those of the other half, so a cell too large for what is near it
+  /// is not believed.
+  float unevenness = 1;
 };
 
 class LearnedGuides {
@@ -55,17 +42,18 @@ class LearnedGuides {
   /// Learns from all of them, and forgets them. The same on any number of threads.
   void build();
 
-  /// The guide at a point of a surface, `normal` its geometric normal on the side of the light;
+  /// What is known at a point of a surface, `normal` its geometric normal on the side of the light;
   /// nullptr if light has never reached one that faces this way.
   const LearnedGuide* find(Vec3 position, Vec3 normal) const;
+  /// What gather rays from there should follow: nothing where light comes evenly.
+  LobeMixture at(Vec3 position, Vec3 normal) const;
 
  private:
   /// What is kept of a photon.
   struct Deposit {
-    Vec3 position;
-    Vec3 wi;
+    Vec3 position, origin;  // [m]
     Vec3 normal;
-    float flux;
+    float flux;  // [W]
   };
   /// Surfaces that face one way: a complete binary tree in the order of a heap, its leaves cells.
   struct Split {
@@ -80,13 +68,14 @@ class LearnedGuides {
 
     void build(std::span<Deposit> deposits, std::size_t node);
     static LearnedGuide guide(std::span<Deposit> deposits);
+    static float unevenness(const LightOrigins& origins, std::span<const Deposit> others);
   };
   std::array<std::vector<Deposit>, kFacings> deposits_;
   std::array<Tree, kFacings> trees_;
   std::size_t photons_ = 0;
 };
 
-/// From a few photon paths a pixel; nothing where learning is off or there is no final gathering.
+/// From some photon paths a pixel; nothing where learning is off or there is no final gathering.
 /// `config` resolved.
 LearnedGuides learn_guides(const Scene& scene, const PhotonSource& source,
                            const RenderConfig& config);

@@ -80,11 +80,12 @@ void trace_photon(Tracer& tracer, const EmittedPhoton& start, PhotonKind kind,
   for (int bounces = 0; flight.segments < max_segments; ++bounces) {
     const std::optional<SurfaceHit> hit = tracer.next(flight.ray, flight.flux, flight.segments);
     if (!hit || flight.segments > max_segments) return;
+    flight.flown += hit->distance;
     const Scattering at(hit->point, *hit->bsdf, -flight.ray.direction, Carried::flux);
     if (hit->bsdf->has(Lobes::smooth) && (!caustic || bounces > 0)) {
       photons.push_back({hit->point.position, at.wo(), at.facing_normal(), flight.flux,
                          flight.segments, hit->point.error, at.facing_shading_normal(),
-                         flight.scattered});
+                         flight.scattered ? flight.flown : 0});
     }
     if (!hit->bsdf->has(followed) || !scatter(flight, at, followed, focus, tracer.rng)) return;
   }

@@ -43,6 +43,7 @@ bool scatter_aimed(Flight& flight, const Scattering& at, Lobes lobes, const Cone
   if (is_black(flux) || !is_finite(flux)) return false;
   flight.flux = flux;
   flight.scattered = true;
+  flight.flown = 0;
   flight.ray = at.spawn(wi);
   return true;
 }
@@ -73,7 +74,10 @@ bool scatter(Flight& flight, const Scattering& at, Lobes lobes, const std::optio
   const float survival = std::min(1.0f, most * max_component(flux) / max_component(flight.flux));
   if (!(u_survive < survival)) return false;
   flight.flux = flux * (balance / survival);
-  flight.scattered |= any(sample->lobe & Lobes::smooth);
+  if (any(sample->lobe & Lobes::smooth)) {
+    flight.scattered = true;
+    flight.flown = 0;
+  }
   flight.ray = at.spawn(sample->wi);
   return true;
 }

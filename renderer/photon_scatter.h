@@ -19,6 +19,7 @@ struct Flight {
   Rgb flux;                // [W]
   int segments = 0;        // behind it
   bool scattered = false;  // by a smooth lobe
+  float flown = 0;         // [m] since then
 };
 
 /// Scatters the photon at `at` by one of `lobes`; false if it ends. A BSDF's choice passes Russian

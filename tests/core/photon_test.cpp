@@ -110,10 +110,8 @@ TEST(PackPhoton, KeepsEachFieldApart) {
   photon.flux = {4, 2, 1};
   for (const int n : {1, 2, kMaxSegments}) {
     photon.segments = n;
-    photon.scattered = !photon.scattered;
     const PhotonPayload p = pack(photon);
     EXPECT_EQ(segments(p), n);
-    EXPECT_EQ(scattered(p), photon.scattered);
     EXPECT_EQ(normal(p), photon.normal);
     EXPECT_EQ(wi(p), photon.wi);
     EXPECT_EQ(unpack_flux(p.flux), photon.flux);

@@ -8,7 +8,9 @@
 
 #include "core/bsdf_makers.h"
 #include "core/constants.h"
+#include "core/rng.h"
 #include "core/sampling.h"
+#include "renderer/config.h"
 #include "tests/stats.h"
 
 namespace octolux::test {
@@ -168,11 +170,11 @@ TEST_F(Records, HoldWhatALookUpFindsThere) {
   // No photon has a longer path than 2, so longer ones do not differ; 0 counts none.
   EXPECT_EQ(records.radiance({aside.at, 255}), records.radiance({aside.at, 2}));
   EXPECT_EQ(records.radiance({aside.at, 0}), Rgb(0));
-  const Surroundings* around = records.surroundings({aside.at});
-  ASSERT_NE(around, nullptr);
-  const float of_guide = photons.neighbourhood({at_site.at, 3}, 64).bandwidth;
-  EXPECT_FLOAT_EQ(around->bandwidth, of_guide * std::sqrt(kNeighbours / 64.0f));
-  EXPECT_EQ(records.surroundings({aside.at}), around);
+  const std::optional<float> bandwidth = records.bandwidth({aside.at});
+  ASSERT_TRUE(bandwidth);
+  EXPECT_FLOAT_EQ(*bandwidth,
+                  photons.bandwidth_at({at_site.at, 3}, 64) * std::sqrt(kNeighbours / 64.0f));
+  EXPECT_EQ(records.bandwidth({aside.at}), bandwidth);
 }
 
 /// Surfaces that are not diffuse scatter the record's photons by their own BSDF, from where they
@@ -204,7 +206,7 @@ TEST_F(Records, WithoutSitesNobodyIsServed) {
   const RadianceMap photons = map(on_square(100, rng_of(3, 0)));
   const Place place({0.5f, 0.5f});
   EXPECT_FALSE(make({}, photons).radiance({place.at}));
-  EXPECT_EQ(make({}, photons).surroundings({place.at}), nullptr);
+  EXPECT_FALSE(make({}, photons).bandwidth({place.at}));
   EXPECT_FALSE(GatherRecords().radiance({place.at}));
 }
 

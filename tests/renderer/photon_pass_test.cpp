@@ -1,5 +1,6 @@
-// renderer/photon_pass.h: photons know whether a smooth lobe scattered them. Gather rays look for
-// the light of those only; what came through a pane or through glass is found by other means.
+// renderer/photon_pass.h: photons know whether a smooth lobe scattered them, and how far off.
+// Gather rays look for the light of those only; what came through a pane or through glass is found
+// by other means.
 #include "renderer/photon_pass.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +24,7 @@ struct Counts {
 Counts count(const std::vector<Photon>& photons, int segments) {
   Counts counts;
   for (const Photon& p : photons) {
-    if (p.segments == segments) ++(p.scattered ? counts.scattered : counts.straight);
+    if (p.segments == segments) ++(scattered(p) ? counts.scattered : counts.straight);
   }
   return counts;
 }
@@ -41,7 +42,7 @@ TEST(TracePhotons, GlassScattersNothingAndWallsDo) {
   const auto scene = shipped_scene("glass-sphere/glass-sphere.xml");
   const std::vector<Photon> caustics = photons_of(*scene, PhotonKind::caustic);
   EXPECT_GT(caustics.size(), 100u);
-  for (const Photon& p : caustics) EXPECT_FALSE(p.scattered);
+  for (const Photon& p : caustics) EXPECT_FALSE(scattered(p));
 
   const std::vector<Photon> all = photons_of(*scene, PhotonKind::global);
   EXPECT_EQ(count(all, 1).scattered, 0);
@@ -49,6 +50,25 @@ TEST(TracePhotons, GlassScattersNothingAndWallsDo) {
   // Into the ball and out of it again, or from a wall and another.
   EXPECT_GT(count(all, 3).scattered, 1000);
   EXPECT_GT(count(all, 3).straight, 100);
+}
+
+TEST(TracePhotons, KnowHowFarTheyFlewFromTheSurfaceThatScatteredThem) {
+  // A closed room of 4 m: photons come from its walls, none of which reaches into it.
+  const auto scene =
+      scene_from("<scene version='3.0.0'>" + sensor_xml("-1.9, 2, 0", "2, 2, 0", 40, 8, 8) +
+                 closed_room_xml(0.6) + R"(
+    <emitter type='point'><rgb name='intensity' value='10'/>
+      <point name='position' x='0' y='1' z='0'/></emitter></scene>)");
+  int told = 0;
+  for (const Photon& p : photons_of(*scene, PhotonKind::global)) {
+    EXPECT_EQ(scattered(p), p.segments > 1);
+    if (!scattered(p)) continue;
+    ++told;
+    const Vec3 from = abs(p.position + p.wi * p.flown - scene->bounds.center());
+    EXPECT_NEAR(std::max({from.x, from.y, from.z}), 2, 1e-4);
+    if (testing::Test::HasFailure()) break;
+  }
+  EXPECT_GT(told, 1000);
 }
 
 }  // namespace

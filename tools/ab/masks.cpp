@@ -69,7 +69,7 @@ Sight look_at(const Look& look, std::int64_t pixel) {
   const Scattering at(hit->point, *hit->bsdf, -ray.direction, Carried::radiance);
   const GatherPoint point{at, 255, look.scene.caster.get(), 0};
   const float length = static_cast<float>(look.reach) *
-                       look.map.neighbourhood(point, look.config.estimator.neighbours).bandwidth;
+                       look.map.bandwidth_at(point, look.config.estimator.neighbours);
   return {true, is_near_edge(look, point, length), sight.lamp, length};
 }
 
