@@ -82,8 +82,9 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
                                     const Level& level) const {
   SplitRadiance out;
   if (remaining(level.segments) < 1) return out;
-  // Behind a retraced ray, one of many, half as many will do.
-  const int light_samples = level.retraces > 0 ? (light_samples_ + 1) / 2 : light_samples_;
+  // Behind a retraced ray, one of many, one will do: with half as many as at the first point eight
+  // interiors took 1.01 to 1.08 times as long for 0.94 to 1.00 of the noise.
+  const int light_samples = level.retraces > 0 ? std::min(1, light_samples_) : light_samples_;
   const DirectStrategy strategy{Lobes::smooth, Lobes::smooth, light_samples, level.rays,
                                 remaining(level.segments) - 1};
   Receiver lit = receiver(at);
