@@ -17,10 +17,11 @@ constexpr Vec3 kLamp{0.8f, 0, 0.6f};
 double half_bright(Vec3 wi) { return wi.x > 0.5f ? 5 : 0.2; }
 double small_lamp(Vec3 wi) { return dot(wi, kLamp) > 0.99f ? 100 : 0.2; }
 
-/// A lobe at the lamp, one on the horizon and one below it.
+/// A lobe at the lamp, a wide one, one on the horizon and one below it.
 LobeMixture guide() {
   LobeMixture lobes;
-  lobes.add(kLamp, 200, 0.8f);
+  lobes.add(kLamp, 200, 0.4f);
+  lobes.add({-0.6f, 0, 0.8f}, 1, 0.4f);
   lobes.add({0, 1, 0}, 30, 0.1f);
   lobes.add({0, 0.6f, -0.8f}, 2, 0.1f);
   return lobes;
@@ -32,7 +33,7 @@ Running reflected(const Bsdf& bsdf, const LobeMixture& lobes, int rays, double (
   point.ng = point.ns = kNormal;
   const Scattering at(point, bsdf, normalize({0.5f, 0.2f, 0.6f}), Carried::radiance);
   Running sum;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < 200'000; ++i) {
     Rng rng(9, Stream::test, 0, static_cast<std::uint64_t>(i));
     const PointSet by_bsdf(rays, rng), by_guide(rays, rng);
     const GatherDirections directions(at, lobes, rays, {by_bsdf, by_guide});
