@@ -35,8 +35,8 @@ inline bool is_usable(const Photon& p) {
 
 /// Everything but the position. flux: three 18-bit mantissas with a shared exponent (relative
 /// precision 4e-6 of the largest channel, exact under powers of two). wi: octahedral 2 x 16 bits
-/// (Cigolle et al., JCGT 3(2), 2014); normal: octahedral 2 x 12 bits;
-/// segments: 8 bits.
+/// (Cigolle et al., JCGT 3(2), 2014); normal: octahedral 2 x 12 bits; segments: 8
+/// bits.
 struct PhotonPayload {
   std::uint64_t flux = 0;
   std::uint32_t wi = 0;

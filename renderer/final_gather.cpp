@@ -1,6 +1,7 @@
 // final_gather.h.
 #include "renderer/final_gather.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "renderer/roulette.h"

@@ -64,20 +64,20 @@ Vec3 variance(std::span<const Seen> photons, const Moments& means) {
 
 /// Photons that may be cut in two, and where.
 struct Part {
-  explicit Part(std::span<Seen> photons_) : photons(photons_) {
-    const Moments all(photons);
-    const Vec3 v = variance(photons, all);
+  explicit Part(std::span<Seen> photons_) : photons(photons_), means(photons_) {
+    if (std::ssize(photons) < kWhole) return;
+    const Vec3 v = variance(photons, means);
     axis = v.x >= v.y && v.x >= v.z ? 0 : v.y >= v.z ? 1 : 2;
-    at = all.direction[axis];
-    if (std::ssize(photons) >= kWhole) worth = all.flux * v[axis];
+    worth = means.flux * v[axis];
   }
   std::span<Seen> photons;
+  Moments means;
   float worth = 0;  // of cutting it; 0: too few
-  int axis = 0;
-  float at = 0;
+  int axis = 0;     // along which, at the mean
 
   /// How many photons come first; at least kFewest on each side.
   std::size_t cut() {
+    const float at = means.direction[axis];
     const auto begin = photons.begin(), end = photons.end();
     const auto below =
         std::partition(begin, end, [&](const Seen& p) { return p.direction[axis] < at; });
@@ -122,7 +122,7 @@ LightOrigins::LightOrigins(std::span<const Photon> photons, Vec3 center) {
   if (seen.empty()) return;
   const float total = Moments(seen).flux;
   for (const Part& part : parts(seen)) {
-    const Moments m(part.photons);
+    const Moments& m = part.means;
     const float size = length(m.direction);
     const Vec3 axis = size > 0 ? m.direction / size : part.photons[0].direction;
     const float distance = 1 / m.nearness;

@@ -19,9 +19,8 @@ class LobeMixture {
 
   LobeMixture() {}  // of none: there is nothing to sample. Leaves the arrays as they are
   /// A lobe around the unit vector `axis` with density (1 + 2k) / (4 pi (1 + k t)^2) [sr^-1], k
-  /// being its sharpness and t = 1 - cos of the angle to the axis. Half of it lies within t = 1 /
-  /// (1
-  /// + k). All shares must sum to 1.
+  /// being its sharpness and t = 1 - cos of the angle to the axis: the median of t is 1 / (1 + k).
+  /// All shares must sum to 1.
   void add(Vec3 axis, float sharpness, float share);
 
   bool empty() const { return count_ == 0; }

@@ -1,4 +1,5 @@
-// tinyobjloader's own awkward models: each loads, or is refused with one clear line.
+// tinyobjloader's own awkward models (not part of this repository: skipped, saying so, where
+// absent): each loads, or is refused with one clear line.
 #include <gtest/gtest.h>
 
 #include <filesystem>
