@@ -21,4 +21,8 @@ FacingSet facing(Vec3 normal);
 FacingSet facing_near(Vec3 normal);
 inline constexpr float kFacingCosine = 0.7f;
 
+/// Every class with a normal that is more than acos(`kFacingCosine`) away from this one and from
+/// its opposite. May hold more.
+FacingSet facing_across(Vec3 normal);
+
 }  // namespace octolux

@@ -1,7 +1,8 @@
 // Radiance leaving a point through its smooth lobes (DESIGN section 1): direct light by next-event
 // estimation, caustics from their map, everything else gathered over rays that end in the global
 // map. The map is read one bounce away, where its blur is averaged out; a gather ray that ends
-// close by, where blur and leaks would show, is not read but goes on one more bounce.
+// close by, where blur and leaks would show, or on a detail too small for a look-up, is not read
+// but goes on one more bounce.
 #pragma once
 
 #include "estimators/radiance_map.h"
@@ -53,9 +54,14 @@ class FinalGather {
     float read_distance;  // [m] shorter gather rays go on; of the first level not known yet
     int retraces;         // how often this path has gone on
   };
+  /// The way of a gather ray to where it ended.
+  struct Arrived {
+    int segments;    // from the eye
+    float distance;  // [m] along the ray
+  };
   SplitRadiance radiance(Tracer& tracer, const Scattering& at, const Level& level) const;
   Rgb follow(Tracer& tracer, Ray ray, const Level& level, Arrival arrival) const;
-  Rgb look_up(Tracer& tracer, const Scattering& at, int segments) const;
+  Rgb scattered(Tracer& tracer, const Scattering& at, const Level& level, Arrived arrived) const;
   GatherDirections::Points gather_points(Tracer& tracer, const Level& level, int guided) const;
   LightPoints light_points(Tracer& tracer, const Level& level, int n) const;
   GatherPoint gather_point(Tracer& tracer, const Scattering& at, int segments) const;

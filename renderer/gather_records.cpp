@@ -35,7 +35,8 @@ GatherRecords::GatherRecords(RecordSites sites, const RadianceMap& map, const Ra
       sites_(std::move(sites)),
       white_radiance_(sites_.size() * kDepths),
       arrivals_(sites_.size() * kDepths),
-      reach_(sites_.size()),
+      spacing_(sites_.size()),
+      detail_(sites_.size()),
       clearing_(config.must_see ? sites_.size() : 0),
       bandwidth_(sites_.size()) {
   for (std::uint32_t i = 0; i < map.photons().slots(); ++i) {
@@ -57,18 +58,36 @@ int GatherRecords::depth_index(int max_segments) const {
   return std::min(config_.max_segments, longest_) - std::min(max_segments, longest_);
 }
 
-float GatherRecords::reach(std::uint32_t record) const {
-  return reach_.get(record, [&] { return sites_.reach(record); });
+float GatherRecords::spacing(std::uint32_t record) const {
+  return spacing_.get(record, [&] {
+    const SurfacePoint there = sites_.point(record);
+    return sites_.spacing(there.position, there.ng);
+  });
 }
 
-/// The record that serves the point, as far as the sites know.
-std::optional<std::uint32_t> GatherRecords::find(const GatherPoint& at) const {
-  const std::optional<RecordSites::Found> found =
-      sites_.find(photon_query(at, map_->bandwidth()), at.at.facing_shading_normal());
-  if (!found) return std::nullopt;
-  const float far = reach(found->record);
-  if (!(found->distance2 < far * far)) return std::nullopt;
-  return found->record;
+float GatherRecords::reach(std::uint32_t record) const { return sites_.reach(spacing(record)); }
+
+GatherRecords::Nearest GatherRecords::nearest(const GatherPoint& at) const {
+  if (sites_.size() == 0 || at.at.bsdf().smooth_transmission()) return std::nullopt;
+  return sites_.find(photon_query(at, map_->bandwidth()), at.at.facing_shading_normal());
+}
+
+bool GatherRecords::reaches(const Nearest& nearest) const {
+  if (!nearest) return false;
+  const float far = reach(nearest->record);
+  return nearest->distance2 < far * far;
+}
+
+bool GatherRecords::is_detail(const GatherPoint& at, const Nearest& nearest) const {
+  const float far = nearest ? spacing(nearest->record) : 0;
+  if (!nearest || !(nearest->distance2 < far * far)) {
+    const Vec3 position = at.at.point().position, normal = at.at.facing_normal();
+    return sites_.is_detail(position, normal, sites_.spacing(position, normal));
+  }
+  return detail_.get(nearest->record, [&] {
+    const SurfacePoint there = sites_.point(nearest->record);
+    return sites_.is_detail(there.position, there.ng, far);
+  });
 }
 
 /// How far the record sees, within its reach.
@@ -92,14 +111,14 @@ bool GatherRecords::sees(std::uint32_t record, const SurfacePoint& point, Vec3 n
                                            {there.position, there.ng, there.error}));
 }
 
-std::optional<GatherRecords::Serving> GatherRecords::serving(const GatherPoint& at) const {
-  if (sites_.size() == 0) return std::nullopt;
+std::optional<GatherRecords::Serving> GatherRecords::serving(const GatherPoint& at,
+                                                             const Nearest& nearest) const {
+  if (!nearest) return std::nullopt;
   const int depth = depth_index(at.max_segments);
-  if (depth < 0 || depth >= kDepths) return std::nullopt;
-  const std::optional<std::uint32_t> record = find(at);
-  if (!record) return std::nullopt;
-  if (config_.must_see && !sees(*record, at.at.point(), at.at.facing_normal())) return std::nullopt;
-  return Serving{*record, depth};
+  if (depth < 0 || depth >= kDepths || !reaches(nearest)) return std::nullopt;
+  const std::uint32_t record = nearest->record;
+  if (config_.must_see && !sees(record, at.at.point(), at.at.facing_normal())) return std::nullopt;
+  return Serving{record, depth};
 }
 
 /// Radiance [W m^-2 sr^-1] that a white Lambertian surface would send out.
@@ -127,9 +146,8 @@ const GatherRecords::Arrivals& GatherRecords::arrivals(const Serving& by) const 
   });
 }
 
-std::optional<Rgb> GatherRecords::radiance(const GatherPoint& at) const {
-  if (at.at.bsdf().smooth_transmission()) return std::nullopt;
-  const std::optional<Serving> by = serving(at);
+std::optional<Rgb> GatherRecords::radiance(const GatherPoint& at, const Nearest& nearest) const {
+  const std::optional<Serving> by = serving(at, nearest);
   if (!by) return std::nullopt;
   if (const std::optional<Rgb> reflectance = at.at.diffuse_reflectance()) {
     return *reflectance * white_radiance(*by);
@@ -142,12 +160,11 @@ std::optional<Rgb> GatherRecords::radiance(const GatherPoint& at) const {
 }
 
 std::optional<float> GatherRecords::bandwidth(const GatherPoint& at) const {
-  if (sites_.size() == 0 || at.at.bsdf().smooth_transmission()) return std::nullopt;
-  const std::optional<std::uint32_t> record = find(at);
-  if (!record) return std::nullopt;
-  return bandwidth_.get(*record, [&] {
+  const Nearest found = nearest(at);
+  if (!reaches(found)) return std::nullopt;
+  return bandwidth_.get(found->record, [&] {
     const int segments = std::min(kMaxSegments, config_.max_segments + 1);
-    return at_record(*record, segments, [&](const GatherPoint& there) {
+    return at_record(found->record, segments, [&](const GatherPoint& there) {
       return mean_bandwidth(*map_, there, config_.neighbours);
     });
   });

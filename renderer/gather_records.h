@@ -47,17 +47,23 @@ class GatherRecords {
   /// Without arrivals, which few records are asked for.
   static constexpr double kBytesPerRecord =
       RecordSites::kBytesPerSite + kDepths * LazyValues<Rgb>::kBytesPerValue +
-      2 * LazyValues<float>::kBytesPerValue + LazyValues<Clearing>::kBytesPerValue +
-      kDepths * sizeof(void*);
+      2 * LazyValues<float>::kBytesPerValue + LazyValues<std::uint8_t>::kBytesPerValue +
+      LazyValues<Clearing>::kBytesPerValue + kDepths * sizeof(void*);
 
   GatherRecords() = default;
   /// The map and the caster must outlive the records and stay where they are.
   GatherRecords(RecordSites sites, const RadianceMap& map, const RayCaster& caster,
                 const RecordConfig& config);
 
+  /// The record nearest to the point, which may serve it; none near surfaces that let light
+  /// through.
+  using Nearest = std::optional<RecordSites::Found>;
+  Nearest nearest(const GatherPoint& at) const;
   /// Radiance [W m^-2 sr^-1] leaving the point through its smooth lobes; empty if no record serves
   /// it.
-  std::optional<Rgb> radiance(const GatherPoint& at) const;
+  std::optional<Rgb> radiance(const GatherPoint& at, const Nearest& nearest) const;
+  /// Is the surface there a detail too small for look-ups (RecordSites::is_detail)?
+  bool is_detail(const GatherPoint& at, const Nearest& nearest) const;
   /// The mean bandwidth [m] near the point; empty if no record serves it.
   std::optional<float> bandwidth(const GatherPoint& at) const;
 
@@ -69,11 +75,12 @@ class GatherRecords {
     std::size_t value() const { return std::size_t{record} * kDepths + depth; }
   };
   int depth_index(int max_segments) const;
-  std::optional<std::uint32_t> find(const GatherPoint& at) const;
-  std::optional<Serving> serving(const GatherPoint& at) const;
+  std::optional<Serving> serving(const GatherPoint& at, const Nearest& nearest) const;
+  bool reaches(const Nearest& nearest) const;
   Rgb white_radiance(const Serving& by) const;
   const Arrivals& arrivals(const Serving& by) const;
-  float reach(std::uint32_t record) const;  // [m]
+  float spacing(std::uint32_t record) const;  // [m]
+  float reach(std::uint32_t record) const;    // [m]
   Clearing clearing(std::uint32_t record) const;
   bool sees(std::uint32_t record, const SurfacePoint& point, Vec3 normal) const;
   template <class Use>
@@ -87,9 +94,10 @@ class GatherRecords {
   RecordSites sites_;
   LazyValues<Rgb> white_radiance_;  // kDepths per record
   LazyObjects<Arrivals> arrivals_;  // kDepths per record
-  LazyValues<float> reach_;         // [m] as RecordSites has it
-  LazyValues<Clearing> clearing_;   // of the record's reach
-  LazyValues<float> bandwidth_;     // [m]
+  LazyValues<float> spacing_;       // [m] as RecordSites has it
+  LazyValues<std::uint8_t> detail_;
+  LazyValues<Clearing> clearing_;  // of the record's reach
+  LazyValues<float> bandwidth_;    // [m]
 };
 
 }  // namespace octolux

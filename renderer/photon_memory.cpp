@@ -43,7 +43,7 @@ PhotonMemory foresee_photons(const Scene& scene, const LightSampler& lights, con
     caustic = stored(scene, {lights, aim.caustic}, PhotonKind::caustic, key) *
               static_cast<double>(config.photons.caustic);
   }
-  if (gather && config.eye.reuse > 0) {
+  if (gather) {
     const int last = std::max(1, pass_limit(config)) - 1;
     const Bandwidth bandwidth =
         look_up_bandwidth(scene, config, PhotonKind::global, 1, static_cast<std::uint64_t>(last));

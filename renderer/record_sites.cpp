@@ -43,6 +43,23 @@ Sorted sorted_by_place(const std::vector<Place>& places, Vec3 Place::*normal) {
 
 }  // namespace
 
+/// Squared distances [m^2] of the nearest few.
+class RecordSites::Closest {
+ public:
+  explicit Closest(float farthest) { distances2_.fill(farthest * farthest); }
+  float last2() const { return distances2_.back(); }
+  void add(float distance2) {
+    if (!(distance2 < last2())) return;
+    std::size_t place = kCounted - 1;
+    for (; place > 0 && distance2 < distances2_[place - 1]; --place)
+      distances2_[place] = distances2_[place - 1];
+    distances2_[place] = distance2;
+  }
+
+ private:
+  std::array<float, kCounted> distances2_;  // sorted
+};
+
 RecordSites::RecordSites(const std::vector<RecordSite>& sites, const std::vector<Photon>& photons,
                          const Bandwidth& bandwidth, int neighbours, double reuse) {
   Sorted sorted = sorted_by_place(sites, &RecordSite::ng);
@@ -58,14 +75,14 @@ RecordSites::RecordSites(const std::vector<RecordSite>& sites, const std::vector
   }
   photons_ = std::move(sorted.tree);
 
-  const float share = static_cast<float>(reuse) * std::pow(bandwidth.shrink, 1.5f);
-  scale_ = share * std::sqrt(static_cast<float>(neighbours) / kCounted);
-  max_reach_ = share * bandwidth.max_radius;
+  const float per_bandwidth = std::sqrt(static_cast<float>(neighbours) / kCounted);
+  reach_ = static_cast<float>(reuse) * std::pow(bandwidth.shrink, 1.5f) * per_bandwidth;
+  max_spacing_ = bandwidth.max_radius / per_bandwidth;
 }
 
 std::optional<RecordSites::Found> RecordSites::find(const PhotonQuery& query,
                                                     Vec3 shading_normal) const {
-  Found best{kNone, max_reach_ * max_reach_};
+  Found best{kNone, max_spacing_ * max_spacing_};
   PhotonTreeWalk walk(sites_, query.position, facing_near(query.normal));
   for (;;) {
     const std::uint32_t b = walk.next<PhotonTreeWalk::Order::nearest_first>(best.distance2);
@@ -86,31 +103,38 @@ std::optional<RecordSites::Found> RecordSites::find(const PhotonQuery& query,
   return best;
 }
 
-float RecordSites::reach(std::uint32_t record) const {
-  const Vec3 normal = surfaces_[record].ng;
-  const PhotonQuery query{.position = sites_.position(record), .normal = normal};
-  std::array<float, kCounted> nearest;  // squared distances, sorted
-  const float farthest = max_reach_ / scale_;
-  nearest.fill(farthest * farthest);
-  PhotonTreeWalk walk(photons_, query.position, facing_near(normal));
+/// Adds the distances of photons on surfaces that face one of these ways and whose normals count.
+template <class Counts>
+void RecordSites::look_around(const PhotonQuery& query, FacingSet facing, Closest& nearest,
+                              const Counts& counts) const {
+  PhotonTreeWalk walk(photons_, query.position, facing);
   for (;;) {
-    const std::uint32_t b = walk.next<PhotonTreeWalk::Order::nearest_first>(nearest.back());
-    if (b == kNone) break;
+    const std::uint32_t b = walk.next<PhotonTreeWalk::Order::nearest_first>(nearest.last2());
+    if (b == kNone) return;
     const BlockDistances block(photons_.block(b), query);
-    for (std::uint32_t near = block.nearer_than(nearest.back()); near != 0; near &= near - 1) {
+    for (std::uint32_t near = block.nearer_than(nearest.last2()); near != 0; near &= near - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(near));
-      const std::uint32_t photon = b * kBlockSize + lane;
-      const float distance2 = block.distance2[lane];
       // A site that is a photon does not count itself.
-      if (distance2 == 0 || !(distance2 < nearest.back())) continue;
-      if (!(dot(normals_[photon], normal) > kMinCosine)) continue;
-      std::size_t place = kCounted - 1;
-      for (; place > 0 && distance2 < nearest[place - 1]; --place)
-        nearest[place] = nearest[place - 1];
-      nearest[place] = distance2;
+      if (block.distance2[lane] == 0) continue;
+      if (counts(normals_[b * kBlockSize + lane])) nearest.add(block.distance2[lane]);
     }
   }
-  return scale_ * std::sqrt(nearest.back());
+}
+
+float RecordSites::spacing(Vec3 position, Vec3 normal) const {
+  const PhotonQuery query{.position = position, .normal = normal};
+  Closest nearest(max_spacing_);
+  look_around(query, facing_near(normal), nearest,
+              [&](Vec3 other) { return dot(other, normal) > kMinCosine; });
+  return std::sqrt(nearest.last2());
+}
+
+bool RecordSites::is_detail(Vec3 position, Vec3 normal, float spacing) const {
+  const PhotonQuery ball{.position = position, .normal = normal, .squash = 1};
+  Closest nearest(spacing);
+  look_around(ball, facing_across(normal), nearest,
+              [&](Vec3 other) { return std::abs(dot(other, normal)) < kFacingCosine; });
+  return nearest.last2() < spacing * spacing;
 }
 
 SurfacePoint RecordSites::point(std::uint32_t record) const {

@@ -1,5 +1,5 @@
-// Where a pass keeps what is the same for many rays near one another (records), and which record
-// serves which point.
+// Where a pass keeps what is the same for many rays near one another (records), which record serves
+// which point, and where the surface is a detail too small for look-ups.
 //
 // Where sites are is told in record_pass.h, and how far each serves by the photons of a second
 // photon pass: they lie close together where the bandwidth is narrow. Those photons take part in no
@@ -56,19 +56,30 @@ class RecordSites {
   /// The record nearest to a query on a surface that faces the same way, shading normals included.
   /// It serves the query if it is nearer than its reach.
   std::optional<Found> find(const PhotonQuery& query, Vec3 shading_normal) const;
-  /// How far a record serves [m], by the distances of the photons around it. As expensive as a
-  /// look-up.
-  float reach(std::uint32_t record) const;
+  /// How far it is [m] from a point to the few photons next to it on surfaces that face the same
+  /// way. As expensive as a look-up.
+  float spacing(Vec3 position, Vec3 normal) const;
+  /// How far a record with this spacing serves [m].
+  float reach(float spacing) const { return reach_ * spacing; }
+  /// Is the surface at a point with this spacing a detail, so small that as many photons of
+  /// surfaces across it are near? Such are window bars, cornices, leaves. A look-up there reaches
+  /// over gaps where no photon can land: it found half the light of a house's window frames.
+  bool is_detail(Vec3 position, Vec3 normal, float spacing) const;
   /// The surface at a record, its front side that of the site.
   SurfacePoint point(std::uint32_t record) const;
 
  private:
   PhotonTree sites_;
   std::vector<Surface> surfaces_;  // in the tree's order
+  class Closest;
+  template <class Counts>
+  void look_around(const PhotonQuery& query, FacingSet facing, Closest& nearest,
+                   const Counts& counts) const;
+
   PhotonTree photons_;
   std::vector<Vec3> normals_;  // of the photons' surfaces, in the tree's order
-  float scale_ = 0;            // of reaches: distances between photons over this
-  float max_reach_ = 0;        // [m]
+  float reach_ = 0;            // by spacing
+  float max_spacing_ = 0;      // [m]
 };
 
 }  // namespace octolux

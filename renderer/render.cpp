@@ -80,7 +80,7 @@ RadianceMap make_map(const Job& job, PhotonKind kind, PassKey key, Progress& pro
 GatherRecords make_records(const Job& job, const RadianceMap& map, PassKey key,
                            Progress& progress) {
   const RenderConfig& config = job.config;
-  if (!config.eye.gather || !(config.eye.reuse > 0)) return {};
+  if (!config.eye.gather) return {};
   Stopwatch watch;
   const PhotonSource source{job.lights, job.aim.global};
   const RecordPass traced = trace_record_sites(job.scene, source, config, map.bandwidth(), key);

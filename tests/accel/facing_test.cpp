@@ -44,6 +44,25 @@ TEST(Facing, WhatFacesAwayIsPassedOver) {
   }
 }
 
+TEST(Facing, NothingAcrossIsPassedOver) {
+  Rng rng(1, Stream::test, 803, 0);
+  for (int i = 0; i < 200'000; ++i) {
+    const Vec3 query = random_direction(rng);
+    const float cosine = kFacingCosine * (2 * rng.uniform() - 1);
+    ASSERT_NE(facing(tilted(query, cosine, rng)) & facing_across(query), 0u) << i;
+    ASSERT_NE(facing(tilted(query, kFacingCosine, rng)) & facing_across(query), 0u) << i;
+  }
+}
+
+TEST(Facing, AWallIsNotAcrossItselfNorItsBack) {
+  const Vec3 walls[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  for (const Vec3& a : walls) {
+    for (const Vec3& b : walls) {
+      EXPECT_EQ((facing(a) & facing_across(b)) != 0, dot(a, b) == 0);
+    }
+  }
+}
+
 TEST(Facing, WallsAreApart) {
   const Vec3 walls[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   for (const Vec3& a : walls) {
@@ -54,6 +73,7 @@ TEST(Facing, WallsAreApart) {
 TEST(Facing, NotANumberFacesNothing) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(facing_near({nan, nan, nan}), 0u);
+  EXPECT_EQ(facing_across({nan, nan, nan}), 0u);
 }
 
 }  // namespace
