@@ -94,10 +94,12 @@ inline std::string hash_lines(const std::string& platform_name,
   return text;
 }
 
-/// Replaces this platform's hashes in the file.
+/// Replaces this platform's hashes in the file. Where they are not what they were, or nobody knows,
+/// those of other platforms are old, too, and go.
 inline void store_hashes() {
   StoredHashes stored = read_hashes(read_file(kHashFile));
-  stored[platform()] = render_hashes();
+  const std::map<std::string, std::string> now = render_hashes();
+  if (stored[platform()] != now) stored = {{platform(), now}};
   std::string text =
       "# Bits of tiny renders by platform; written by tools/update-references --hashes, read by\n"
       "# tests/regression/bits_test.cpp. They say that something changed, not that it got worse.\n";

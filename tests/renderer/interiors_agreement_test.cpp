@@ -79,8 +79,7 @@ TEST_P(InteriorsAgreementSlow, PerPixelAndInTheMean) {
 }
 
 // With 64 passes of living-room, pixels whose light is rare state a third of the spread that they
-// have between seeds. So few photons as 100 000 tell whether details are read: its window bars,
-// cornices and leaves made the whole room 3 % too dark.
+// have between seeds.
 INSTANTIATE_TEST_SUITE_P(Scenes, InteriorsAgreementSlow,
                          testing::Values(Case{"veach-ajar/scene.xml", 8192, 64, 100'000},
                                          Case{"living-room/scene.xml", 6144, 128, 100'000},
