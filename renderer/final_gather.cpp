@@ -118,20 +118,19 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
   return out;
 }
 
-/// Radiance leaving `at`, where a gather ray ended: read from the map, or followed further. Details
-/// are asked for at the first ray only: were they at all, a living room would have the same mean,
-/// and a corridor would take 1.3 times as long.
+/// Radiance leaving `at`, where a gather ray ended: read from the map, or followed further.
 Rgb FinalGather::scattered(Tracer& tracer, const Scattering& at, const Level& level,
                            Arrived arrived) const {
   const auto go_on = [&] {
     const Level next{arrived.segments, 1, level.read_distance, level.retraces + 1};
     return radiance(tracer, at, next).total();
   };
+  const bool may_go_on = level.retraces < kMaxRetraces;
   const float threshold = level.read_distance * (0.5f + tracer.rng.uniform());
-  if (arrived.distance < threshold && level.retraces < kMaxRetraces) return go_on();
+  if (may_go_on && arrived.distance < threshold) return go_on();
   const GatherPoint point = gather_point(tracer, at, arrived.segments);
   const GatherRecords::Nearest record = maps_.records.nearest(point);
-  if (level.retraces == 0 && maps_.records.is_detail(point, record)) return go_on();
+  if (may_go_on && maps_.records.is_detail(point, record)) return go_on();
   if (const std::optional<Rgb> shared = maps_.records.radiance(point, record)) return *shared;
   return maps_.global.radiance(point);
 }
