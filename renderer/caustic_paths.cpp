@@ -28,7 +28,6 @@ RenderConfig trial_config(const RenderConfig& config) {
   RenderConfig trial;
   trial.seed = config.seed;
   trial.photons = config.photons;
-  trial.eye.reuse = 0;
   trial.eye.gather_rays = 4;
   trial.eye.light_samples = 2;
   trial.estimator.seen = true;

@@ -118,17 +118,17 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
   return out;
 }
 
-/// Radiance leaving `at`, where a gather ray ended: read from the map, or followed further.
-Rgb FinalGather::scattered(Tracer& tracer, const Scattering& at, const Level& level,
-                           Arrived arrived) const {
+/// Radiance leaving `at`, where a gather ray of this length [m] ended: read from the map, or
+/// followed further.
+Rgb FinalGather::scattered(Tracer& tracer, const Scattering& at, const Level& here,
+                           float distance) const {
   const auto go_on = [&] {
-    const Level next{arrived.segments, 1, level.read_distance, level.retraces + 1};
-    return radiance(tracer, at, next).total();
+    return radiance(tracer, at, {here.segments, 1, here.read_distance, here.retraces + 1}).total();
   };
-  const bool may_go_on = level.retraces < kMaxRetraces;
-  const float threshold = level.read_distance * (0.5f + tracer.rng.uniform());
-  if (may_go_on && arrived.distance < threshold) return go_on();
-  const GatherPoint point = gather_point(tracer, at, arrived.segments);
+  const bool may_go_on = here.retraces < kMaxRetraces;
+  const float threshold = here.read_distance * (0.5f + tracer.rng.uniform());
+  if (may_go_on && distance < threshold) return go_on();
+  const GatherPoint point = gather_point(tracer, at, here.segments);
   const GatherRecords::Nearest record = maps_.records.nearest(point);
   if (may_go_on && maps_.records.is_detail(point, record)) return go_on();
   if (const std::optional<Rgb> shared = maps_.records.radiance(point, record)) return *shared;
@@ -155,7 +155,8 @@ Rgb FinalGather::follow(Tracer& tracer, Ray ray, const Level& level, Arrival arr
     distance += hit->distance;
     const Scattering at(hit->point, *hit->bsdf, wo, Carried::radiance);
     if (hit->bsdf->has(Lobes::smooth)) {
-      total += beta * scattered(tracer, at, level, {segments, distance});
+      const Level here{segments, 1, level.read_distance, level.retraces};
+      total += beta * scattered(tracer, at, here, distance);
     }
     if (!hit->bsdf->has(Lobes::specular)) break;
     const std::optional<BsdfSample> sample = sample_lobes(tracer.rng, at, Lobes::specular);

@@ -54,14 +54,9 @@ class FinalGather {
     float read_distance;  // [m] shorter gather rays go on; of the first level not known yet
     int retraces;         // how often this path has gone on
   };
-  /// The way of a gather ray to where it ended.
-  struct Arrived {
-    int segments;    // from the eye
-    float distance;  // [m] along the ray
-  };
   SplitRadiance radiance(Tracer& tracer, const Scattering& at, const Level& level) const;
   Rgb follow(Tracer& tracer, Ray ray, const Level& level, Arrival arrival) const;
-  Rgb scattered(Tracer& tracer, const Scattering& at, const Level& level, Arrived arrived) const;
+  Rgb scattered(Tracer& tracer, const Scattering& at, const Level& here, float distance) const;
   GatherDirections::Points gather_points(Tracer& tracer, const Level& level, int guided) const;
   LightPoints light_points(Tracer& tracer, const Level& level, int n) const;
   GatherPoint gather_point(Tracer& tracer, const Scattering& at, int segments) const;

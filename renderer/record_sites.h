@@ -69,13 +69,13 @@ class RecordSites {
   SurfacePoint point(std::uint32_t record) const;
 
  private:
-  PhotonTree sites_;
-  std::vector<Surface> surfaces_;  // in the tree's order
   class Closest;
   template <class Counts>
   void look_around(const PhotonQuery& query, FacingSet facing, Closest& nearest,
                    const Counts& counts) const;
 
+  PhotonTree sites_;
+  std::vector<Surface> surfaces_;  // in the tree's order
   PhotonTree photons_;
   std::vector<Vec3> normals_;  // of the photons' surfaces, in the tree's order
   float reach_ = 0;            // by spacing
