@@ -21,7 +21,8 @@ enum class Stream : std::uint64_t {
   guide = 8,
   lights = 9,
   look = 10,
-  trial = 11
+  trial = 11,
+  sharing = 12
 };
 
 /// splitmix64 finaliser (Steele, Lea & Flood 2014): a bijection of 64 bits with full avalanche.

@@ -53,6 +53,7 @@ void check(const RenderConfig& config) {
           "eye.samples_per_pass must be at least 1, or -1 for automatic");
   require(config.eye.retrace >= 0, "eye.retrace must be 0 or more");
   require(config.eye.reuse >= 0 && config.eye.reuse <= 1, "eye.reuse must be in [0, 1]");
+  require(config.eye.share >= 0 && config.eye.share <= 1, "eye.share must be in [0, 1]");
   require(config.stop.passes >= 0, "stop.passes must be 0 or more");
   require(config.stop.samples >= 0, "stop.samples must be 0 or more");
   require(config.stop.seconds >= 0, "stop.seconds must be 0 or more");

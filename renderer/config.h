@@ -30,6 +30,7 @@ struct EyeConfig {
   bool learn = true;          // learn before the first pass where light comes from and is seen
   bool seen = true;           // gathered look-ups count only photons that they see (seen_photons.h)
   double reuse = 0.9;         // how far gather rays share irradiance (record_sites.h); 0: never
+  double share = 0.15;        // how far pixels share gathers (gather_sharing.h); 0: not at all
 };
 
 /// The first that is reached stops the render, at the end of a pass. 0: not set.
@@ -74,6 +75,7 @@ void visit(Config& config, Field&& field) {
   field("eye.learn", config.eye.learn);
   field("eye.seen", config.eye.seen);
   field("eye.reuse", config.eye.reuse);
+  field("eye.share", config.eye.share);
   field("stop.passes", config.stop.passes);
   field("stop.samples", config.stop.samples);
   field("stop.seconds", config.stop.seconds);

@@ -26,10 +26,26 @@ std::optional<BsdfSample> sample_specular(Tracer& tracer, const Scattering& at, 
   return at.sample(u_lobe, u, Lobes::specular);
 }
 
+/// What is gathered where the path first meets a surface, over `segments` segments; nothing if that
+/// is not Lambertian.
+Gathered first_gathered(const Scattering& at, Rgb weight, Rgb radiance, int segments) {
+  const std::optional<Rgb> reflectance = at.diffuse_reflectance();
+  if (!reflectance) return {};
+  const auto white = [&](int c) {
+    return (*reflectance)[c] > 0 ? radiance[c] / (*reflectance)[c] : 0.0f;
+  };
+  return {.position = at.point().position,
+          .normal = at.facing_shading_normal(),
+          .reflectance = weight * *reflectance,
+          .radiance = {white(0), white(1), white(2)},
+          .segments = segments,
+          .lambertian = true};
+}
+
 }  // namespace
 
 EyeSample trace_eye_path(Tracer& tracer, const LightSampler& lights, const FinalGather& gather,
-                         Ray ray) {
+                         Ray ray, Gathered& gathered) {
   const Scene& scene = tracer.scene();
   const int max_segments = scene.max_depth < 0 ? 1 << 20 : scene.max_depth;
   EyeSample out;
@@ -53,7 +69,8 @@ EyeSample trace_eye_path(Tracer& tracer, const LightSampler& lights, const Final
       const SplitRadiance leaving = gather.radiance(tracer, at, segments);
       out.direct += beta * leaving.direct;
       out.caustic += beta * leaving.caustic;
-      out.indirect += beta * leaving.indirect;
+      if (bounces == 0) gathered = first_gathered(at, beta, leaving.indirect, segments);
+      if (bounces > 0 || !gathered.lambertian) out.indirect += beta * leaving.indirect;
     }
     if (!hit->bsdf->has(Lobes::specular)) break;
     out.direct += beta * glossy_direct(tracer, lights, at, gather.light_samples(), segments,
@@ -67,6 +84,14 @@ EyeSample trace_eye_path(Tracer& tracer, const LightSampler& lights, const Final
     arrival = {receiver(at), sample->pdf_w, 1,
                sample->lobe == Lobes::near_specular ? gather.light_samples() : 0};
   }
+  return out;
+}
+
+EyeSample trace_eye_path(Tracer& tracer, const LightSampler& lights, const FinalGather& gather,
+                         Ray ray) {
+  Gathered gathered;
+  EyeSample out = trace_eye_path(tracer, lights, gather, ray, gathered);
+  if (gathered.lambertian) out.indirect += gathered.seen(gathered.radiance);
   return out;
 }
 

@@ -11,5 +11,8 @@ namespace octolux {
 /// One eye path along `ray`.
 EyeSample trace_eye_path(Tracer& tracer, const LightSampler& lights, const FinalGather& gather,
                          Ray ray);
+/// The same but for what it gathers at a Lambertian surface met first, which is `gathered`.
+EyeSample trace_eye_path(Tracer& tracer, const LightSampler& lights, const FinalGather& gather,
+                         Ray ray, Gathered& gathered);
 
 }  // namespace octolux

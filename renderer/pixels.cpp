@@ -5,13 +5,11 @@
 #include <atomic>
 #include <cmath>
 
-#include "core/parallel.h"
+#include "renderer/tiles.h"
 
 namespace octolux {
 
 namespace {
-
-constexpr int kTile = 16;  // pixels
 
 /// Point `index` of the R2 sequence (Roberts 2018), shifted by the seed.
 Vec2 sub_pixel(std::uint64_t seed, std::uint64_t index) {
@@ -38,6 +36,7 @@ struct SampleGrid {
   int width, height;
   Vec2 offset;
   PassImage samples;
+  GatheredGrid gathered;
 
   const EyeSample& at(int x, int y) const {
     return samples[static_cast<std::size_t>(y) * width + x];
@@ -88,24 +87,16 @@ void add_filtered(EyeSample& out, const SampleGrid& grid, const FilterWeights& a
   if (total > 0) add(out, sum, share / total);
 }
 
-/// Calls body(x, y) for every pixel, tile by tile, in parallel.
-void for_each_pixel(int width, int height, const std::function<void(int x, int y)>& body) {
-  const int across = (width + kTile - 1) / kTile, down = (height + kTile - 1) / kTile;
-  parallel_for_chunks(static_cast<std::int64_t>(across) * down, 1,
-                      [&](std::int64_t tile, std::int64_t, std::int64_t) {
-                        const int x0 = static_cast<int>(tile % across) * kTile;
-                        const int y0 = static_cast<int>(tile / across) * kTile;
-                        for (int y = y0; y < std::min(height, y0 + kTile); ++y) {
-                          for (int x = x0; x < std::min(width, x0 + kTile); ++x) body(x, y);
-                        }
-                      });
-}
-
 /// Traces sample number `number` (of the whole render) of every pixel.
 SampleGrid trace_grid(const Scene& scene, PassKey key, std::uint64_t number,
                       const EyePathFunction& path, PixelPass& pass) {
-  SampleGrid grid{scene.film.crop_width, scene.film.crop_height, sub_pixel(key.seed, number), {}};
-  grid.samples.resize(static_cast<std::size_t>(grid.width) * grid.height);
+  const int width = scene.film.crop_width, height = scene.film.crop_height;
+  const std::size_t pixels = static_cast<std::size_t>(width) * height;
+  SampleGrid grid{width,
+                  height,
+                  sub_pixel(key.seed, number),
+                  PassImage(pixels),
+                  {width, height, std::vector<Gathered>(pixels)}};
   std::atomic<std::int64_t> rays{0};
   for_each_pixel(grid.width, grid.height, [&](int x, int y) {
     const std::size_t pixel = static_cast<std::size_t>(y) * grid.width + x;
@@ -114,26 +105,43 @@ SampleGrid trace_grid(const Scene& scene, PassKey key, std::uint64_t number,
     const Vec2 corner{static_cast<float>(x), static_cast<float>(y)};
     const Vec2 lens = scene.camera.has_lens() ? tracer.sequence.points(PixelUse::lens, 0, 1)[0]
                                               : Vec2{0.5f, 0.5f};
-    grid.samples[pixel] = path(tracer, scene.camera.ray(corner + grid.offset, lens));
+    grid.samples[pixel] =
+        path(tracer, scene.camera.ray(corner + grid.offset, lens), grid.gathered.pixels[pixel]);
     rays.fetch_add(tracer.rays(), std::memory_order_relaxed);
   });
   pass.rays += rays;
+  return grid;
+}
+
+/// Adds what was gathered, shared or not, to what each path saw.
+void add_gathered(SampleGrid& grid, const GatherSharing& sharing, float shrink) {
+  for_each_pixel(grid.width, grid.height, [&](int x, int y) {
+    const Gathered& own = grid.gathered.at(x, y);
+    if (!own.lambertian) return;
+    EyeSample& sample = grid.samples[static_cast<std::size_t>(y) * grid.width + x];
+    sample.indirect += own.seen(sharing.shared(grid.gathered, x, y, shrink));
+  });
+}
+
+void note_non_finite(const SampleGrid& grid, PixelPass& pass) {
   for (std::size_t i = 0; i < grid.samples.size(); ++i) {
     if (is_finite(grid.samples[i].radiance())) continue;
     if (pass.non_finite++ == 0) pass.first_non_finite = i;
   }
-  return grid;
 }
 
 }  // namespace
 
-PixelPass trace_pixels(const Scene& scene, int samples, PassKey key, const EyePathFunction& path) {
+PixelPass trace_pixels(const Scene& scene, int samples, PassKey key, const EyePathFunction& path,
+                       const GatherSharing& sharing, float shrink) {
   PixelPass pass;
   pass.image.resize(static_cast<std::size_t>(scene.film.crop_width) * scene.film.crop_height);
   const float share = 1.0f / static_cast<float>(samples);
   for (int s = 0; s < samples; ++s) {
     const std::uint64_t number = key.pass * static_cast<std::uint64_t>(samples) + s;
-    const SampleGrid grid = trace_grid(scene, key, number, path, pass);
+    SampleGrid grid = trace_grid(scene, key, number, path, pass);
+    add_gathered(grid, sharing, shrink);
+    note_non_finite(grid, pass);
     const FilterWeights across(scene.filter, grid.offset.x), down(scene.filter, grid.offset.y);
     for_each_pixel(grid.width, grid.height, [&](int x, int y) {
       EyeSample& out = pass.image[static_cast<std::size_t>(y) * grid.width + x];

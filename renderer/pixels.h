@@ -7,13 +7,15 @@
 
 #include "renderer/config.h"
 #include "renderer/film.h"
+#include "renderer/gather_sharing.h"
 #include "renderer/photon_pass.h"
 #include "renderer/tracer.h"
 
 namespace octolux {
 
-/// Radiance and layers along one camera ray.
-using EyePathFunction = std::function<EyeSample(Tracer& tracer, const Ray& ray)>;
+/// Radiance and layers along one camera ray, but for what is written into `gathered`.
+using EyePathFunction =
+    std::function<EyeSample(Tracer& tracer, const Ray& ray, Gathered& gathered)>;
 
 /// The picture of one pass, what it took, and what went wrong.
 struct PixelPass {
@@ -24,8 +26,9 @@ struct PixelPass {
 };
 
 /// Traces `samples` eye paths for every pixel of the scene's film; every pixel is the mean of those
-/// that its filter reaches.
-PixelPass trace_pixels(const Scene& scene, int samples, PassKey key, const EyePathFunction& path);
+/// that its filter reaches. Pixels share what they gather, within `shrink` times their reach.
+PixelPass trace_pixels(const Scene& scene, int samples, PassKey key, const EyePathFunction& path,
+                       const GatherSharing& sharing = {}, float shrink = 1);
 
 /// Albedo, normal and depth of the first surface an eye path met along `ray`.
 void describe_first_hit(EyeSample& out, const Scene& scene, const SurfaceHit& hit, const Ray& ray);

@@ -51,6 +51,7 @@ struct Job {
   const std::unique_ptr<Estimator> estimator;
   PhotonAim aim;
   Learned learned;
+  GatherSharing sharing;
 
   PassKey key(int pass) const { return {config.seed, static_cast<std::uint64_t>(pass)}; }
 };
@@ -109,10 +110,11 @@ PixelPass photon_mapping_pass(const Job& job, PassKey key, Progress& progress) {
 
   Stopwatch watch;
   const FinalGather gather(job.scene, job.lights, maps, job.learned, job.config);
-  PixelPass pixels = trace_pixels(job.scene, job.config.eye.samples_per_pass, key,
-                                  [&](Tracer& tracer, const Ray& ray) {
-                                    return trace_eye_path(tracer, job.lights, gather, ray);
-                                  });
+  const auto path = [&](Tracer& tracer, const Ray& ray, Gathered& gathered) {
+    return trace_eye_path(tracer, job.lights, gather, ray, gathered);
+  };
+  PixelPass pixels = trace_pixels(job.scene, job.config.eye.samples_per_pass, key, path,
+                                  job.sharing, maps.global.bandwidth().shrink);
   progress.rays += pixels.rays;
   progress.timing.eye += watch.lap();
   return pixels;
@@ -120,9 +122,10 @@ PixelPass photon_mapping_pass(const Job& job, PassKey key, Progress& progress) {
 
 PixelPass path_tracing_pass(const Job& job, PassKey key, Progress& progress) {
   Stopwatch watch;
-  PixelPass pixels = trace_pixels(
-      job.scene, job.config.eye.samples_per_pass, key,
-      [&](Tracer& tracer, const Ray& ray) { return trace_path(tracer, job.lights, ray); });
+  PixelPass pixels = trace_pixels(job.scene, job.config.eye.samples_per_pass, key,
+                                  [&](Tracer& tracer, const Ray& ray, Gathered&) {
+                                    return trace_path(tracer, job.lights, ray);
+                                  });
   progress.rays += pixels.rays;
   progress.timing.eye += watch.lap();
   return pixels;
@@ -147,6 +150,7 @@ RenderResult render(const Scene& scene, const RenderConfig& wanted, RenderObserv
     observer.photons_foreseen(memory);
     job.learned.guides = learn_guides(scene, {job.lights, job.aim.global}, config);
     job.learned.lights = learn_lights(scene, job.lights, config);
+    job.sharing = learn_sharing(scene, config);
   }
   RenderResult result =
       start ? std::move(*start) : RenderResult{Film(film.crop_width, film.crop_height), {}, false};

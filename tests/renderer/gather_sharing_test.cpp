@@ -1,0 +1,202 @@
+// renderer/gather_sharing.h: which pixels share what they gather, how far, and that it leaves the
+// picture as it is, but for the noise.
+#include "renderer/gather_sharing.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "core/rng.h"
+#include "tests/renderer/renders.h"
+
+namespace octolux::test {
+namespace {
+
+constexpr float kSpacing = 0.1f;  // [m] of the pixels
+constexpr float kWide = std::numeric_limits<float>::max();
+
+/// A wall seen from the front.
+GatheredGrid wall(int size, const std::function<Rgb(int x, int y)>& radiance) {
+  GatheredGrid grid{size, size, {}};
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      grid.pixels.push_back(
+          {.position = {kSpacing * static_cast<float>(x), kSpacing * static_cast<float>(y), 0},
+           .normal = {0, 0, 1},
+           .reflectance = Rgb(0.5f),
+           .radiance = radiance(x, y),
+           .segments = 1,
+           .lambertian = true});
+    }
+  }
+  return grid;
+}
+
+GatherSharing as_far_as(float reach, const GatheredGrid& grid) {
+  return GatherSharing(std::vector<float>(grid.pixels.size(), reach));
+}
+
+TEST(GatherSharing, ASlopeIsKept) {
+  const auto slope = [](int x, int y) {
+    return Rgb(1 + 0.1f * static_cast<float>(x) + 0.2f * static_cast<float>(y));
+  };
+  const GatheredGrid grid = wall(12, slope);
+  for (const float reach : {0.15f, 0.3f, kWide}) {
+    const GatherSharing sharing = as_far_as(reach, grid);
+    for (int y = 0; y < 12; ++y) {
+      for (int x = 0; x < 12; ++x) {
+        EXPECT_NEAR(sharing.shared(grid, x, y, 1).r, slope(x, y).r, 1e-5) << x << ' ' << y;
+      }
+    }
+  }
+}
+
+TEST(GatherSharing, NoiseIsThatOfTheMean) {
+  Rng rng(1, Stream::test, 0, 0);
+  const GatheredGrid grid = wall(70, [&](int, int) { return Rgb(rng.uniform()); });
+  const GatherSharing sharing = as_far_as(kWide, grid);
+  Running means;  // of pixels that have no neighbour in common
+  for (int y = 3; y < 70; y += 7) {
+    for (int x = 3; x < 70; x += 7) means.add(sharing.shared(grid, x, y, 1).r);
+  }
+  // Uniform numbers have a variance of 1/12, means of 49 a 49th; that of a hundred is known to
+  // sqrt(2 / 99).
+  EXPECT_NEAR(means.variance() * 12 * 49, 1, 4 * std::sqrt(2.0 / 99));
+}
+
+struct Other {
+  const char* name;
+  std::function<void(Gathered&)> make;  // of a pixel next to the middle
+  bool counts;
+};
+
+class NeighbouringPixel : public testing::TestWithParam<Other> {};
+
+TEST_P(NeighbouringPixel, CountsOnlyIfItKnows) {
+  GatheredGrid grid = wall(7, [](int, int) { return Rgb(0); });
+  Gathered& other = grid.pixels[3 * 7 + 4];
+  other.radiance = Rgb(100);
+  GetParam().make(other);
+  const float shared = as_far_as(0.25f, grid).shared(grid, 3, 3, 1).r;
+  EXPECT_EQ(shared > 0, GetParam().counts) << shared;
+  EXPECT_EQ(GatherSharing().shared(grid, 3, 3, 1).r, 0);
+  EXPECT_EQ(as_far_as(0.25f, grid).shared(grid, 3, 3, 0.3f).r, 0);
+}
+
+const Other kOthers[] = {
+    {"Alike", [](Gathered&) {}, true},
+    {"ATurnOfTheWall",
+     [](Gathered& g) {
+       g.normal = normalize(Vec3{0.2f, 0, 1});
+     },
+     true},
+    {"AnotherWall",
+     [](Gathered& g) {
+       g.normal = {1, 0, 0};
+     },
+     false},
+    {"TheBackOfIt",
+     [](Gathered& g) {
+       g.normal = {0, 0, -1};
+     },
+     false},
+    {"FarBehind", [](Gathered& g) { g.position.z = -0.3f; }, false},
+    {"Glossy", [](Gathered& g) { g.lambertian = false; }, false},
+    {"BehindAPane", [](Gathered& g) { g.segments = 2; }, false},
+    {"BlackInOneChannel",
+     [](Gathered& g) {
+       g.reflectance = {0.5f, 0, 0.5f};
+     },
+     false},
+    {"Darker", [](Gathered& g) { g.reflectance = Rgb(0.01f); }, true},
+    {"NotFinite", [](Gathered& g) { g.radiance = Rgb(INFINITY); }, false},
+};
+INSTANTIATE_TEST_SUITE_P(Kinds, NeighbouringPixel, testing::ValuesIn(kOthers),
+                         [](const auto& param) { return param.param.name; });
+
+/// Seen from 1 m above: a floor under a ceiling of this height, which may be missing.
+std::unique_ptr<Scene> floor_under(double ceiling) {
+  const std::string plate =
+      "<shape type='rectangle'><transform name='to_world'><scale value='5000'/>"
+      "<rotate x='1' angle='-90'/><translate y='";
+  std::string xml = "<scene version='3.0.0'>" + sensor_xml("0, 1, 0", "0.3, 0, 0.1", 60, 32, 32) +
+                    plate + "0'/></transform></shape>";
+  if (ceiling > 0) xml += plate + std::to_string(ceiling) + "'/></transform></shape>";
+  return scene_from(xml + "<emitter type='constant'/></scene>");
+}
+
+TEST(GatherSharing, ReachesAShareOfTheHarmonicMeanDistance) {
+  RenderConfig config;
+  config.eye.share = 0.2;
+  const double height = 3;
+  const std::vector<float> reach = learn_sharing(*floor_under(height), config).reach();
+  ASSERT_EQ(reach.size(), 32u * 32u);
+  // A ray that leaves by the cosine c goes c^-1 as far as the ceiling is high: the mean of the
+  // inverse, c, is 2/3, its variance 1/2 - 4/9. Two rays a pixel; those by the film's edges count
+  // in fewer means, those near them in more.
+  double nearness = 0;
+  for (const float r : reach) nearness += config.eye.share / r / static_cast<double>(reach.size());
+  const double sigma = std::sqrt((0.5 - 4.0 / 9) / (2.0 * 32 * 32)) / height;
+  EXPECT_NEAR(nearness, 2.0 / 3 / height, 5 * sigma);
+}
+
+TEST(GatherSharing, ReachesAsFarAsPixelsGoUnderTheSky) {
+  const GatherSharing sharing = learn_sharing(*floor_under(0), {});
+  for (const float r : sharing.reach()) EXPECT_EQ(r, kWide);
+}
+
+TEST(GatherSharing, IsLeftOutWhereNothingIsGathered) {
+  RenderConfig off;
+  off.eye.share = 0;
+  EXPECT_TRUE(learn_sharing(*floor_under(3), off).reach().empty());
+  off = {};
+  off.eye.gather = false;
+  EXPECT_TRUE(learn_sharing(*floor_under(3), off).reach().empty());
+}
+
+constexpr int kSize = 48, kBlock = 12;  // pixels
+
+/// The mean of a block of pixels.
+double block_mean(const Image& image, int block) {
+  constexpr int kAcross = kSize / kBlock;
+  double sum = 0;
+  for (int i = 0; i < kBlock * kBlock; ++i) {
+    const int x = block % kAcross * kBlock + i % kBlock, y = block / kAcross * kBlock + i / kBlock;
+    sum += luminance(image.pixels[static_cast<std::size_t>(y) * kSize + x]);
+  }
+  return sum / (kBlock * kBlock);
+}
+
+/// Of indirect light, between the pictures of several seeds.
+double mean_variance(const std::vector<Film>& films) {
+  std::vector<Running> pixels(kSize * kSize);
+  for (const Film& film : films) {
+    const Image indirect = film.indirect();
+    for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i].add(luminance(indirect.pixels[i]));
+  }
+  double sum = 0;
+  for (const Running& pixel : pixels) sum += pixel.variance();
+  return sum / static_cast<double>(pixels.size());
+}
+
+TEST(GatherSharing, LeavesThePictureAndTakesItsNoise) {
+  const auto scene = shipped_scene("cornell/cornell.xml");
+  resize_film(*scene, kSize, kSize);
+  RenderConfig config = photon_config(4, 20'000);
+  const std::vector<Film> shared = render_seeds(*scene, config, 8);
+  config.eye.share = 0;
+  const std::vector<Film> own = render_seeds(*scene, config, 8);
+  EXPECT_LT(mean_variance(shared), 0.6 * mean_variance(own));
+  for (int block = 0; block < kSize * kSize / (kBlock * kBlock); ++block) {
+    Running ratio;  // of the same photons
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      ratio.add(block_mean(shared[i].radiance(), block) / block_mean(own[i].radiance(), block));
+    }
+    EXPECT_NEAR(ratio.mean(), 1, 0.002 + 4 * ratio.standard_error()) << block;
+    EXPECT_LT(ratio.standard_error(), 0.002) << block;
+  }
+}
+
+}  // namespace
+}  // namespace octolux::test
