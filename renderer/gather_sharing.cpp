@@ -26,6 +26,18 @@ struct Probe {
   bool lambertian = false;
 };
 
+/// One of each pixel.
+struct ProbeGrid {
+  int width, height;
+  std::vector<Probe> probes;
+
+  ProbeGrid(int width_, int height_) : width(width_), height(height_), probes(index(0, height_)) {}
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(x);
+  }
+};
+
 /// A pixel, seen through its middle.
 Probe probe(const Scene& scene, Tracer& tracer, Vec2 pixel) {
   Probe out;
@@ -46,6 +58,23 @@ Probe probe(const Scene& scene, Tracer& tracer, Vec2 pixel) {
   return out;
 }
 
+/// The harmonic mean distance [m] of what lies around a pixel's surface; infinite under a free sky.
+float distance_around(const ProbeGrid& grid, int x, int y) {
+  const Probe& center = grid.probes[grid.index(x, y)];
+  float nearness = 0, count = 0;
+  for (int j = std::max(0, y - kProbePixels); j <= std::min(grid.height - 1, y + kProbePixels);
+       ++j) {
+    for (int i = std::max(0, x - kProbePixels); i <= std::min(grid.width - 1, x + kProbePixels);
+         ++i) {
+      const Probe& other = grid.probes[grid.index(i, j)];
+      if (!other.lambertian || !(dot(other.normal, center.normal) > kMinCosine)) continue;
+      nearness += other.nearness;
+      count += 1;
+    }
+  }
+  return count / nearness;
+}
+
 }  // namespace
 
 Rgb GatherSharing::shared(const GatheredGrid& grid, int x, int y, float shrink) const {
@@ -53,7 +82,7 @@ Rgb GatherSharing::shared(const GatheredGrid& grid, int x, int y, float shrink) 
   if (reach_.empty()) return center.radiance;
   const float reach = shrink * reach_[static_cast<std::size_t>(&center - grid.pixels.data())];
   const float reach2 = reach * reach;
-  /// Epanechnikov's kernel of the distance; 0 for pixels that do not know what the center asks.
+  // Epanechnikov's kernel of the distance; 0 for pixels that do not know what the center asks.
   const auto weight = [&](int i, int j) {
     if (i < 0 || i >= grid.width || j < 0 || j >= grid.height) return 0.0f;
     const Gathered& other = grid.at(i, j);
@@ -81,33 +110,20 @@ Rgb GatherSharing::shared(const GatheredGrid& grid, int x, int y, float shrink) 
 
 GatherSharing learn_sharing(const Scene& scene, const RenderConfig& config) {
   if (!config.eye.gather || !(config.eye.share > 0)) return {};
-  const int width = scene.film.crop_width, height = scene.film.crop_height;
-  const auto index = [width](int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-           static_cast<std::size_t>(x);
-  };
-  std::vector<Probe> probes(index(0, height));
-  for_each_pixel(width, height, [&](int x, int y) {
-    Tracer tracer(scene, Rng(config.seed, Stream::sharing, 0, index(x, y)));
-    probes[index(x, y)] =
+  ProbeGrid grid(scene.film.crop_width, scene.film.crop_height);
+  for_each_pixel(grid.width, grid.height, [&](int x, int y) {
+    const std::size_t pixel = grid.index(x, y);
+    Tracer tracer(scene, Rng(config.seed, Stream::sharing, 0, pixel));
+    grid.probes[pixel] =
         probe(scene, tracer, {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});
   });
-  std::vector<float> reach(probes.size());
-  for_each_pixel(width, height, [&](int x, int y) {
-    const Probe& center = probes[index(x, y)];
-    if (!center.lambertian) return;
-    float nearness = 0, count = 0;
-    for (int j = std::max(0, y - kProbePixels); j <= std::min(height - 1, y + kProbePixels); ++j) {
-      for (int i = std::max(0, x - kProbePixels); i <= std::min(width - 1, x + kProbePixels); ++i) {
-        const Probe& other = probes[index(i, j)];
-        if (!other.lambertian || !(dot(other.normal, center.normal) > kMinCosine)) continue;
-        nearness += other.nearness;
-        count += 1;
-      }
-    }
-    const auto share = static_cast<float>(config.eye.share);
-    reach[index(x, y)] =
-        nearness > 0 ? share * count / nearness : std::numeric_limits<float>::max();
+  std::vector<float> reach(grid.probes.size());
+  for_each_pixel(grid.width, grid.height, [&](int x, int y) {
+    const std::size_t pixel = grid.index(x, y);
+    if (!grid.probes[pixel].lambertian) return;
+    const float distance = distance_around(grid, x, y);
+    reach[pixel] = std::min(std::numeric_limits<float>::max(),
+                            static_cast<float>(config.eye.share) * distance);
   });
   return GatherSharing(std::move(reach));
 }
