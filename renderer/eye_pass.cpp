@@ -45,7 +45,7 @@ Gathered first_gathered(const Scattering& at, Rgb weight, Rgb radiance, int segm
 }  // namespace
 
 EyeSample trace_eye_path(Tracer& tracer, const LightSampler& lights, const FinalGather& gather,
-                         Ray ray, Gathered& gathered) {
+                         Ray ray, Gathered* apart) {
   const Scene& scene = tracer.scene();
   const int max_segments = scene.max_depth < 0 ? 1 << 20 : scene.max_depth;
   EyeSample out;
@@ -69,8 +69,9 @@ EyeSample trace_eye_path(Tracer& tracer, const LightSampler& lights, const Final
       const SplitRadiance leaving = gather.radiance(tracer, at, segments);
       out.direct += beta * leaving.direct;
       out.caustic += beta * leaving.caustic;
-      if (bounces == 0) gathered = first_gathered(at, beta, leaving.indirect, segments);
-      if (bounces > 0 || !gathered.lambertian) out.indirect += beta * leaving.indirect;
+      const bool first = apart && bounces == 0;
+      if (first) *apart = first_gathered(at, beta, leaving.indirect, segments);
+      if (!first || !apart->lambertian) out.indirect += beta * leaving.indirect;
     }
     if (!hit->bsdf->has(Lobes::specular)) break;
     out.direct += beta * glossy_direct(tracer, lights, at, gather.light_samples(), segments,
@@ -84,14 +85,6 @@ EyeSample trace_eye_path(Tracer& tracer, const LightSampler& lights, const Final
     arrival = {receiver(at), sample->pdf_w, 1,
                sample->lobe == Lobes::near_specular ? gather.light_samples() : 0};
   }
-  return out;
-}
-
-EyeSample trace_eye_path(Tracer& tracer, const LightSampler& lights, const FinalGather& gather,
-                         Ray ray) {
-  Gathered gathered;
-  EyeSample out = trace_eye_path(tracer, lights, gather, ray, gathered);
-  if (gathered.lambertian) out.indirect += gathered.seen(gathered.radiance);
   return out;
 }
 

@@ -8,11 +8,9 @@
 
 namespace octolux {
 
-/// One eye path along `ray`.
+/// One eye path along `ray`. What it gathers at a Lambertian surface met first is kept `apart`, if
+/// that is asked for.
 EyeSample trace_eye_path(Tracer& tracer, const LightSampler& lights, const FinalGather& gather,
-                         Ray ray);
-/// The same but for what it gathers at a Lambertian surface met first, which is `gathered`.
-EyeSample trace_eye_path(Tracer& tracer, const LightSampler& lights, const FinalGather& gather,
-                         Ray ray, Gathered& gathered);
+                         Ray ray, Gathered* apart = nullptr);
 
 }  // namespace octolux

@@ -79,7 +79,6 @@ float distance_around(const ProbeGrid& grid, int x, int y) {
 
 Rgb GatherSharing::shared(const GatheredGrid& grid, int x, int y, float shrink) const {
   const Gathered& center = grid.at(x, y);
-  if (reach_.empty()) return center.radiance;
   const float reach = shrink * reach_[static_cast<std::size_t>(&center - grid.pixels.data())];
   const float reach2 = reach * reach;
   // Epanechnikov's kernel of the distance; 0 for pixels that do not know what the center asks.

@@ -52,7 +52,9 @@ class GatherSharing {
   /// Each as far [m] as `reach` has it, row by row.
   explicit GatherSharing(std::vector<float> reach) : reach_(std::move(reach)) {}
 
-  /// `radiance` of a Lambertian pixel, averaged over those within `shrink` times its reach.
+  bool any() const { return !reach_.empty(); }
+  /// If any pixel shares: `radiance` of a Lambertian pixel, averaged over those within `shrink`
+  /// times its reach.
   Rgb shared(const GatheredGrid& grid, int x, int y, float shrink) const;
   /// [m], row by row; empty if no pixel shares.
   const std::vector<float>& reach() const { return reach_; }

@@ -36,7 +36,7 @@ struct SampleGrid {
   int width, height;
   Vec2 offset;
   PassImage samples;
-  GatheredGrid gathered;
+  GatheredGrid gathered;  // empty if nothing is shared
 
   const EyeSample& at(int x, int y) const {
     return samples[static_cast<std::size_t>(y) * width + x];
@@ -87,16 +87,16 @@ void add_filtered(EyeSample& out, const SampleGrid& grid, const FilterWeights& a
   if (total > 0) add(out, sum, share / total);
 }
 
-/// Traces sample number `number` (of the whole render) of every pixel.
+/// Traces sample number `number` (of the whole render) of every pixel, what may be shared apart.
 SampleGrid trace_grid(const Scene& scene, PassKey key, std::uint64_t number,
-                      const EyePathFunction& path, PixelPass& pass) {
+                      const EyePathFunction& path, bool share, PixelPass& pass) {
   const int width = scene.film.crop_width, height = scene.film.crop_height;
   const std::size_t pixels = static_cast<std::size_t>(width) * height;
   SampleGrid grid{width,
                   height,
                   sub_pixel(key.seed, number),
                   PassImage(pixels),
-                  {width, height, std::vector<Gathered>(pixels)}};
+                  {width, height, std::vector<Gathered>(share ? pixels : 0)}};
   std::atomic<std::int64_t> rays{0};
   for_each_pixel(grid.width, grid.height, [&](int x, int y) {
     const std::size_t pixel = static_cast<std::size_t>(y) * grid.width + x;
@@ -105,16 +105,16 @@ SampleGrid trace_grid(const Scene& scene, PassKey key, std::uint64_t number,
     const Vec2 corner{static_cast<float>(x), static_cast<float>(y)};
     const Vec2 lens = scene.camera.has_lens() ? tracer.sequence.points(PixelUse::lens, 0, 1)[0]
                                               : Vec2{0.5f, 0.5f};
-    grid.samples[pixel] =
-        path(tracer, scene.camera.ray(corner + grid.offset, lens), grid.gathered.pixels[pixel]);
+    grid.samples[pixel] = path(tracer, scene.camera.ray(corner + grid.offset, lens),
+                               share ? &grid.gathered.pixels[pixel] : nullptr);
     rays.fetch_add(tracer.rays(), std::memory_order_relaxed);
   });
   pass.rays += rays;
   return grid;
 }
 
-/// Adds what was gathered, shared or not, to what each path saw.
-void add_gathered(SampleGrid& grid, const GatherSharing& sharing, float shrink) {
+/// Adds what was gathered to what each path saw.
+void add_shared(SampleGrid& grid, const GatherSharing& sharing, float shrink) {
   for_each_pixel(grid.width, grid.height, [&](int x, int y) {
     const Gathered& own = grid.gathered.at(x, y);
     if (!own.lambertian) return;
@@ -139,8 +139,8 @@ PixelPass trace_pixels(const Scene& scene, int samples, PassKey key, const EyePa
   const float share = 1.0f / static_cast<float>(samples);
   for (int s = 0; s < samples; ++s) {
     const std::uint64_t number = key.pass * static_cast<std::uint64_t>(samples) + s;
-    SampleGrid grid = trace_grid(scene, key, number, path, pass);
-    add_gathered(grid, sharing, shrink);
+    SampleGrid grid = trace_grid(scene, key, number, path, sharing.any(), pass);
+    if (sharing.any()) add_shared(grid, sharing, shrink);
     note_non_finite(grid, pass);
     const FilterWeights across(scene.filter, grid.offset.x), down(scene.filter, grid.offset.y);
     for_each_pixel(grid.width, grid.height, [&](int x, int y) {

@@ -13,9 +13,8 @@
 
 namespace octolux {
 
-/// Radiance and layers along one camera ray, but for what is written into `gathered`.
-using EyePathFunction =
-    std::function<EyeSample(Tracer& tracer, const Ray& ray, Gathered& gathered)>;
+/// Radiance and layers along one camera ray, but for what is kept `apart`, which may be nullptr.
+using EyePathFunction = std::function<EyeSample(Tracer& tracer, const Ray& ray, Gathered* apart)>;
 
 /// The picture of one pass, what it took, and what went wrong.
 struct PixelPass {

@@ -110,8 +110,8 @@ PixelPass photon_mapping_pass(const Job& job, PassKey key, Progress& progress) {
 
   Stopwatch watch;
   const FinalGather gather(job.scene, job.lights, maps, job.learned, job.config);
-  const auto path = [&](Tracer& tracer, const Ray& ray, Gathered& gathered) {
-    return trace_eye_path(tracer, job.lights, gather, ray, gathered);
+  const auto path = [&](Tracer& tracer, const Ray& ray, Gathered* apart) {
+    return trace_eye_path(tracer, job.lights, gather, ray, apart);
   };
   PixelPass pixels = trace_pixels(job.scene, job.config.eye.samples_per_pass, key, path,
                                   job.sharing, maps.global.bandwidth().shrink);
@@ -123,7 +123,7 @@ PixelPass photon_mapping_pass(const Job& job, PassKey key, Progress& progress) {
 PixelPass path_tracing_pass(const Job& job, PassKey key, Progress& progress) {
   Stopwatch watch;
   PixelPass pixels = trace_pixels(job.scene, job.config.eye.samples_per_pass, key,
-                                  [&](Tracer& tracer, const Ray& ray, Gathered&) {
+                                  [&](Tracer& tracer, const Ray& ray, Gathered*) {
                                     return trace_path(tracer, job.lights, ray);
                                   });
   progress.rays += pixels.rays;

@@ -104,7 +104,7 @@ void report_ray_share(const Scene& scene) {
   const ThreadLimit one(1);
   const LightSampler lights(scene);
   std::vector<Tracer::LoggedRay> rays;
-  trace_pixels(scene, 1, {1, 0}, [&](Tracer& tracer, const Ray& ray, Gathered&) {
+  trace_pixels(scene, 1, {1, 0}, [&](Tracer& tracer, const Ray& ray, Gathered*) {
     tracer.log = &rays;
     return trace_path(tracer, lights, ray);
   });
@@ -113,7 +113,7 @@ void report_ray_share(const Scene& scene) {
   std::vector<double> share;
   for (int i = 0; i < 7; ++i) {
     const double start = now();
-    trace_pixels(scene, 1, {1, 0}, [&](Tracer& tracer, const Ray& ray, Gathered&) {
+    trace_pixels(scene, 1, {1, 0}, [&](Tracer& tracer, const Ray& ray, Gathered*) {
       return trace_path(tracer, lights, ray);
     });
     const double whole = now() - start;
