@@ -22,7 +22,8 @@ enum class Stream : std::uint64_t {
   lights = 9,
   look = 10,
   trial = 11,
-  sharing = 12
+  sharing = 12,
+  direct = 13
 };
 
 /// splitmix64 finaliser (Steele, Lea & Flood 2014): a bijection of 64 bits with full avalanche.

@@ -51,6 +51,8 @@ void check(const RenderConfig& config) {
   require(config.eye.light_samples >= 1, "eye.light_samples must be at least 1");
   require(config.eye.samples_per_pass >= 1 || config.eye.samples_per_pass == -1,
           "eye.samples_per_pass must be at least 1, or -1 for automatic");
+  require(config.eye.direct_samples >= -1,
+          "eye.direct_samples must be 0 or more, or -1 for automatic");
   require(config.eye.retrace >= 0, "eye.retrace must be 0 or more");
   require(config.eye.reuse >= 0 && config.eye.reuse <= 1, "eye.reuse must be in [0, 1]");
   require(config.eye.share >= 0 && config.eye.share <= 1, "eye.share must be in [0, 1]");

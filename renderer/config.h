@@ -26,6 +26,8 @@ struct EyeConfig {
   int gather_rays = 8;        // per eye sample
   int light_samples = 4;      // per eye sample; each chooses one light
   int samples_per_pass = -1;  // eye samples per pixel and pass; -1: see resolved()
+  int direct_samples = -1;    // further ones for each, of direct light and caustics alone; -1: as
+                              // noise asks (direct_samples.h)
   double retrace = 2;         // gather rays shorter than this many bandwidths go on
   bool learn = true;          // learn before the first pass where light comes from and is seen
   bool seen = true;           // gathered look-ups count only photons that they see (seen_photons.h)
@@ -71,6 +73,7 @@ void visit(Config& config, Field&& field) {
   field("eye.gather_rays", config.eye.gather_rays);
   field("eye.light_samples", config.eye.light_samples);
   field("eye.samples_per_pass", config.eye.samples_per_pass);
+  field("eye.direct_samples", config.eye.direct_samples);
   field("eye.retrace", config.eye.retrace);
   field("eye.learn", config.eye.learn);
   field("eye.seen", config.eye.seen);
@@ -83,7 +86,7 @@ void visit(Config& config, Field&& field) {
 }
 
 /// The config with every automatic value (-1) replaced by what it stands for on a film of `pixels`,
-/// but for photons.caustic, which depends on the scene.
+/// but for photons.caustic and eye.direct_samples, which depend on the scene.
 /// A pass of photon mapping takes up to 4 eye samples per pixel, so that there are about three for
 /// every photon path: on a small film the photons would else take most of the time. The number
 /// divides stop.samples, so that exactly those are taken.

@@ -42,10 +42,11 @@ Gathered first_gathered(const Scattering& at, Rgb weight, Rgb radiance, int segm
           .lambertian = true};
 }
 
-}  // namespace
-
-EyeSample trace_eye_path(Tracer& tracer, const LightSampler& lights, const FinalGather& gather,
-                         Ray ray, Gathered* apart) {
+/// Follows specular chains along `ray`. At surfaces with smooth lobes add(out, at, weight, bounces,
+/// segments) adds what leaves them.
+template <class Add>
+EyeSample follow_eye_path(Tracer& tracer, const LightSampler& lights, Ray ray, int light_samples,
+                          Add add) {
   const Scene& scene = tracer.scene();
   const int max_segments = scene.max_depth < 0 ? 1 << 20 : scene.max_depth;
   EyeSample out;
@@ -65,16 +66,9 @@ EyeSample trace_eye_path(Tracer& tracer, const LightSampler& lights, const Final
     if (visible) out.direct += beta * emitted(lights, *hit, wo, arrival);
     if (bounces == 0) describe_first_hit(out, scene, *hit, ray);
     const Scattering at(hit->point, *hit->bsdf, wo, Carried::radiance);
-    if (hit->bsdf->has(Lobes::smooth)) {
-      const SplitRadiance leaving = gather.radiance(tracer, at, segments);
-      out.direct += beta * leaving.direct;
-      out.caustic += beta * leaving.caustic;
-      const bool first = apart && bounces == 0;
-      if (first) *apart = first_gathered(at, beta, leaving.indirect, segments);
-      if (!first || !apart->lambertian) out.indirect += beta * leaving.indirect;
-    }
+    if (hit->bsdf->has(Lobes::smooth)) add(out, at, beta, bounces, segments);
     if (!hit->bsdf->has(Lobes::specular)) break;
-    out.direct += beta * glossy_direct(tracer, lights, at, gather.light_samples(), segments,
+    out.direct += beta * glossy_direct(tracer, lights, at, light_samples, segments,
                                        max_segments - segments - 1);
     const std::optional<BsdfSample> sample = sample_specular(tracer, at, segments);
     if (!sample) break;
@@ -83,9 +77,35 @@ EyeSample trace_eye_path(Tracer& tracer, const LightSampler& lights, const Final
     if (bounces >= kSafeBounces && !survives(tracer.rng, beta, survival(beta, eta))) break;
     ray = at.spawn(sample->wi);
     arrival = {receiver(at), sample->pdf_w, 1,
-               sample->lobe == Lobes::near_specular ? gather.light_samples() : 0};
+               sample->lobe == Lobes::near_specular ? light_samples : 0};
   }
   return out;
+}
+
+}  // namespace
+
+EyeSample trace_eye_path(Tracer& tracer, const LightSampler& lights, const FinalGather& gather,
+                         Ray ray, Gathered* apart) {
+  const auto add = [&](EyeSample& out, const Scattering& at, Rgb weight, int bounces,
+                       int segments) {
+    const SplitRadiance leaving = gather.radiance(tracer, at, segments);
+    out.direct += weight * leaving.direct;
+    out.caustic += weight * leaving.caustic;
+    const bool first = apart && bounces == 0;
+    if (first) *apart = first_gathered(at, weight, leaving.indirect, segments);
+    if (!first || !apart->lambertian) out.indirect += weight * leaving.indirect;
+  };
+  return follow_eye_path(tracer, lights, ray, gather.light_samples(), add);
+}
+
+EyeSample trace_direct_path(Tracer& tracer, const LightSampler& lights, const FinalGather& gather,
+                            Ray ray) {
+  const auto add = [&](EyeSample& out, const Scattering& at, Rgb weight, int, int segments) {
+    const SplitRadiance leaving = gather.direct(tracer, at, segments);
+    out.direct += weight * leaving.direct;
+    out.caustic += weight * leaving.caustic;
+  };
+  return follow_eye_path(tracer, lights, ray, gather.light_samples(), add);
 }
 
 }  // namespace octolux

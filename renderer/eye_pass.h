@@ -13,4 +13,8 @@ namespace octolux {
 EyeSample trace_eye_path(Tracer& tracer, const LightSampler& lights, const FinalGather& gather,
                          Ray ray, Gathered* apart = nullptr);
 
+/// The same for direct light and caustics alone: nothing is gathered, and indirect light left out.
+EyeSample trace_direct_path(Tracer& tracer, const LightSampler& lights, const FinalGather& gather,
+                            Ray ray);
+
 }  // namespace octolux

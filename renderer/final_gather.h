@@ -43,6 +43,8 @@ class FinalGather {
 
   /// Smooth-lobe radiance leaving `at`, which the eye path reached over `segments` segments.
   SplitRadiance radiance(Tracer& tracer, const Scattering& at, int segments) const;
+  /// Of it direct light and caustics alone, without a gather: of the same mean.
+  SplitRadiance direct(Tracer& tracer, const Scattering& at, int segments) const;
 
   /// Light samples at a point; none if nothing emits.
   int light_samples() const { return light_samples_; }
@@ -55,6 +57,12 @@ class FinalGather {
     int retraces;         // how often this path has gone on
   };
   SplitRadiance radiance(Tracer& tracer, const Scattering& at, const Level& level) const;
+  SplitRadiance direct(Tracer& tracer, const Scattering& at, const Level& level,
+                       const Receiver& lit, const GatherPoint& point) const;
+  Rgb gathered(Tracer& tracer, const Scattering& at, const Level& level, const Receiver& lit,
+               const GatherPoint& point) const;
+  Receiver learned_receiver(const Scattering& at) const;
+  int light_samples(const Level& level) const;
   Rgb follow(Tracer& tracer, Ray ray, const Level& level, Arrival arrival) const;
   Rgb scattered(Tracer& tracer, const Scattering& at, const Level& here, float distance) const;
   GatherDirections::Points gather_points(Tracer& tracer, const Level& level, int guided) const;

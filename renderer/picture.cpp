@@ -41,6 +41,7 @@ ExrFile make_exr(const Scene& scene, const RenderConfig& wanted, const Progress&
     }
   });
   number["octolux.photons.caustic"] = static_cast<double>(progress.caustic_paths);
+  number["octolux.directSamples"] = static_cast<double>(progress.direct_samples);
   number["octolux.passes"] = progress.passes;
   number["octolux.photonsGlobal"] = static_cast<double>(progress.global_photons);
   number["octolux.photonsCaustic"] = static_cast<double>(progress.caustic_photons);

@@ -24,6 +24,8 @@ struct Progress {
   std::int64_t global_photons = 0;  // stored in the last pass
   std::int64_t caustic_photons = 0;
   std::int64_t caustic_paths = 0;     // traced for them
+  std::int64_t direct_samples = 0;    // of direct light alone, that the next pass adds to each
+  std::int64_t direct_grids = 0;      // of them, per pixel, of all passes
   std::int64_t rejected_photons = 0;  // not finite; of all passes
   std::int64_t photon_bytes = 0;      // both maps of the last pass
   std::int64_t rays = 0;              // of all passes

@@ -6,6 +6,7 @@
 
 #include "core/check.h"
 #include "renderer/caustic_paths.h"
+#include "renderer/direct_samples.h"
 #include "renderer/eye_pass.h"
 #include "renderer/learn_emission.h"
 #include "renderer/path_pass.h"
@@ -110,11 +111,17 @@ PixelPass photon_mapping_pass(const Job& job, PassKey key, Progress& progress) {
 
   Stopwatch watch;
   const FinalGather gather(job.scene, job.lights, maps, job.learned, job.config);
-  const auto path = [&](Tracer& tracer, const Ray& ray, Gathered* apart) {
-    return trace_eye_path(tracer, job.lights, gather, ray, apart);
-  };
-  PixelPass pixels = trace_pixels(job.scene, job.config.eye.samples_per_pass, key, path,
-                                  job.sharing, maps.global.bandwidth().shrink);
+  const EyePaths paths{[&](Tracer& tracer, const Ray& ray, Gathered* apart) {
+                         return trace_eye_path(tracer, job.lights, gather, ray, apart);
+                       },
+                       [&](Tracer& tracer, const Ray& ray) {
+                         return trace_direct_path(tracer, job.lights, gather, ray);
+                       }};
+  const SamplePlan plan{job.config.eye.samples_per_pass, progress.direct_samples,
+                        progress.direct_grids};
+  PixelPass pixels =
+      trace_pixels(job.scene, plan, key, paths, job.sharing, maps.global.bandwidth().shrink);
+  progress.direct_grids += plan.full * plan.direct;
   progress.rays += pixels.rays;
   progress.timing.eye += watch.lap();
   return pixels;
@@ -122,13 +129,36 @@ PixelPass photon_mapping_pass(const Job& job, PassKey key, Progress& progress) {
 
 PixelPass path_tracing_pass(const Job& job, PassKey key, Progress& progress) {
   Stopwatch watch;
-  PixelPass pixels = trace_pixels(job.scene, job.config.eye.samples_per_pass, key,
-                                  [&](Tracer& tracer, const Ray& ray, Gathered*) {
-                                    return trace_path(tracer, job.lights, ray);
-                                  });
+  const EyePaths paths{[&](Tracer& tracer, const Ray& ray, Gathered*) {
+                         return trace_path(tracer, job.lights, ray);
+                       },
+                       {}};
+  PixelPass pixels = trace_pixels(job.scene, {job.config.eye.samples_per_pass}, key, paths);
   progress.rays += pixels.rays;
   progress.timing.eye += watch.lap();
   return pixels;
+}
+
+/// Before the first pass, and between it and the second: those two tell how many are wanted. They
+/// weigh as much as later passes, so they should not have many fewer.
+std::int64_t direct_samples(const RenderConfig& config) {
+  constexpr std::int64_t kAtFirst = 2;
+  if (config.integrator == Integrator::path || !config.eye.gather) return 0;
+  return config.eye.direct_samples < 0 ? kAtFirst : config.eye.direct_samples;
+}
+
+/// Adds a pass to the picture.
+void add(const PixelPass& pass, const RenderConfig& config, RenderResult& result) {
+  Progress& progress = result.progress;
+  const bool told = result.film.passes() == 1 && config.eye.direct_samples < 0;
+  if (told && direct_samples(config) > 0) {
+    progress.direct_samples =
+        wanted_direct_samples(result.film, pass.image, progress.direct_samples);
+  }
+  result.film.note_non_finite(pass.non_finite, pass.first_non_finite);
+  result.film.add(pass.image);
+  ++progress.passes;
+  progress.error = result.film.relative_error();
 }
 
 }  // namespace
@@ -159,18 +189,16 @@ RenderResult render(const Scene& scene, const RenderConfig& wanted, RenderObserv
   const double seconds_before = progress.seconds;
   progress.total_passes = pass_limit(config);
   progress.caustic_paths = config.photons.caustic;
+  if (progress.passes == 0) progress.direct_samples = direct_samples(config);
   result.interrupted = false;
   while (!result.interrupted && (progress.passes == 0 || !finished(config, progress))) {
     const PassKey key = job.key(progress.passes);
     const PixelPass pass = config.integrator == Integrator::photon
                                ? photon_mapping_pass(job, key, progress)
                                : path_tracing_pass(job, key, progress);
-    result.film.note_non_finite(pass.non_finite, pass.first_non_finite);
-    result.film.add(pass.image);
-    ++progress.passes;
+    add(pass, config, result);
     progress.pass_seconds = seconds_before + watch.seconds() - progress.seconds;
     progress.seconds += progress.pass_seconds;
-    progress.error = result.film.relative_error();
     progress.rays_per_second = static_cast<double>(progress.rays) / progress.seconds;
     progress.remaining_seconds = remaining_seconds(config.stop, progress);
     result.interrupted = !observer.pass_done(progress, result.film);

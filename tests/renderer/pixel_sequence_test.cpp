@@ -46,8 +46,10 @@ std::unique_ptr<Scene> lamp_out_of_focus(int size) {
 struct Variances {
   Running observed, stated;
 };
-Variances variances(const Scene& scene) {
-  const std::vector<Film> films = render_seeds(scene, photon_config(16, 5'000), 8);
+Variances variances(const Scene& scene, int direct_samples = 0) {
+  RenderConfig config = photon_config(16, 5'000);
+  config.eye.direct_samples = direct_samples;
+  const std::vector<Film> films = render_seeds(scene, config, 8);
   Variances v;
   for (const Film& film : films) {
     for (const Rgb& variance : film.variance().pixels) v.stated.add(variance.g);
@@ -65,9 +67,11 @@ TEST(PixelSequences, PassesErrLessTogetherThanIndependentOnesWould) {
 
 /// Of 16 samples in sequence as many as should be, or one more or less, are reflected.
 TEST(PixelSequences, ReflectionIsSeenAsOftenAsItShould) {
-  const Variances v = variances(*lamp_in_glass(12));
-  EXPECT_GT(v.stated.mean(), 0);
-  EXPECT_LT(v.observed.mean() + 4 * v.observed.standard_error(), 0.25 * v.stated.mean());
+  for (const int direct_samples : {0, 3}) {
+    const Variances v = variances(*lamp_in_glass(12), direct_samples);
+    EXPECT_GT(v.stated.mean(), 0);
+    EXPECT_LT(v.observed.mean() + 4 * v.observed.standard_error(), 0.25 * v.stated.mean());
+  }
 }
 
 TEST(PixelSequences, LensIsSeenThroughEvenly) {

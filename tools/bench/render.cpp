@@ -104,18 +104,21 @@ void report_ray_share(const Scene& scene) {
   const ThreadLimit one(1);
   const LightSampler lights(scene);
   std::vector<Tracer::LoggedRay> rays;
-  trace_pixels(scene, 1, {1, 0}, [&](Tracer& tracer, const Ray& ray, Gathered*) {
-    tracer.log = &rays;
-    return trace_path(tracer, lights, ray);
-  });
+  const EyePaths logged{[&](Tracer& tracer, const Ray& ray, Gathered*) {
+                          tracer.log = &rays;
+                          return trace_path(tracer, lights, ray);
+                        },
+                        {}};
+  trace_pixels(scene, {}, {1, 0}, logged);
+  const EyePaths paths{
+      [&](Tracer& tracer, const Ray& ray, Gathered*) { return trace_path(tracer, lights, ray); },
+      {}};
   RTCDevice device = rtcNewDevice(nullptr);
   RTCScene bare = bare_scene(device, scene);
   std::vector<double> share;
   for (int i = 0; i < 7; ++i) {
     const double start = now();
-    trace_pixels(scene, 1, {1, 0}, [&](Tracer& tracer, const Ray& ray, Gathered*) {
-      return trace_path(tracer, lights, ray);
-    });
+    trace_pixels(scene, {}, {1, 0}, paths);
     const double whole = now() - start;
     share.push_back(cast_bare(bare, rays) / whole);
   }
