@@ -10,7 +10,7 @@ namespace octolux {
 
 namespace {
 
-/// An eye sample that gathers costs so many that do not: in eleven scenes 6 to 16.
+/// An eye sample that gathers costs so many that do not: in eleven scenes 6 to 17.
 constexpr double kCosts = 10;
 constexpr int kMostDirectSamples = 15;
 /// Of the picture's mean, added to each pixel's: what errors are relative to, as in
