@@ -17,7 +17,16 @@ constexpr int kMostDirectSamples = 15;
 /// Film::relative_error().
 constexpr double kFloor = 0.01;
 
+/// Of the first two passes, if they are to tell how many are wanted. They weigh as much as later
+/// passes, so they should not have many fewer.
+constexpr std::int64_t kAtFirst = 2;
+
 }  // namespace
+
+std::int64_t first_direct_samples(const RenderConfig& config) {
+  if (config.integrator == Integrator::path || !config.eye.gather) return 0;
+  return config.eye.direct_samples < 0 ? kAtFirst : config.eye.direct_samples;
+}
 
 std::int64_t wanted_direct_samples(const Film& first, const PassImage& second, std::int64_t taken) {
   OCTOLUX_CHECK(first.passes() == 1);

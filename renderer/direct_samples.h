@@ -4,15 +4,19 @@
 // picture stays the same: each path class is the mean of its own samples.
 #pragma once
 
+#include "renderer/config.h"
 #include "renderer/film.h"
 
 namespace octolux {
 
-/// How many for every eye sample that gathers minimize noise times time: sqrt(V C / (v c)) - 1 at
-/// variances V of direct light, v of indirect light and costs c, C of their samples (Neyman's
-/// allocation; at least 0, at most 15). The variances are those of two passes, which took `taken`
-/// of them for each, relative to the square of each pixel: `first`, a film of one pass, and
-/// `second`.
+/// How many for every eye sample that gathers the first two passes take: as set, or a few, which
+/// tell how many are wanted. None where nothing is gathered.
+std::int64_t first_direct_samples(const RenderConfig& config);
+
+/// How many minimize noise times time: sqrt(V C / (v c)) - 1 at variances V of direct light, v of
+/// indirect light and costs c, C of their samples (Neyman's allocation; at least 0, at most 15).
+/// The variances are those of two passes, which took `taken` of them for each, relative to the
+/// square of each pixel: `first`, a film of one pass, and `second`.
 std::int64_t wanted_direct_samples(const Film& first, const PassImage& second, std::int64_t taken);
 
 }  // namespace octolux

@@ -18,7 +18,7 @@ namespace octolux {
 /// alone.
 struct EyePaths {
   std::function<EyeSample(Tracer& tracer, const Ray& ray, Gathered* apart)> full;
-  std::function<EyeSample(Tracer& tracer, const Ray& ray)> direct;
+  std::function<EyeSample(Tracer& tracer, const Ray& ray)> direct = {};
 };
 
 /// What a pass takes of each pixel.

@@ -130,28 +130,19 @@ PixelPass photon_mapping_pass(const Job& job, PassKey key, Progress& progress) {
 PixelPass path_tracing_pass(const Job& job, PassKey key, Progress& progress) {
   Stopwatch watch;
   const EyePaths paths{[&](Tracer& tracer, const Ray& ray, Gathered*) {
-                         return trace_path(tracer, job.lights, ray);
-                       },
-                       {}};
+    return trace_path(tracer, job.lights, ray);
+  }};
   PixelPass pixels = trace_pixels(job.scene, {job.config.eye.samples_per_pass}, key, paths);
   progress.rays += pixels.rays;
   progress.timing.eye += watch.lap();
   return pixels;
 }
 
-/// Before the first pass, and between it and the second: those two tell how many are wanted. They
-/// weigh as much as later passes, so they should not have many fewer.
-std::int64_t direct_samples(const RenderConfig& config) {
-  constexpr std::int64_t kAtFirst = 2;
-  if (config.integrator == Integrator::path || !config.eye.gather) return 0;
-  return config.eye.direct_samples < 0 ? kAtFirst : config.eye.direct_samples;
-}
-
-/// Adds a pass to the picture.
+/// Adds a pass to the picture. The second tells how many direct samples the next ones take.
 void add(const PixelPass& pass, const RenderConfig& config, RenderResult& result) {
   Progress& progress = result.progress;
-  const bool told = result.film.passes() == 1 && config.eye.direct_samples < 0;
-  if (told && direct_samples(config) > 0) {
+  const bool automatic = config.eye.direct_samples < 0 && progress.direct_samples > 0;
+  if (automatic && result.film.passes() == 1) {
     progress.direct_samples =
         wanted_direct_samples(result.film, pass.image, progress.direct_samples);
   }
@@ -189,7 +180,7 @@ RenderResult render(const Scene& scene, const RenderConfig& wanted, RenderObserv
   const double seconds_before = progress.seconds;
   progress.total_passes = pass_limit(config);
   progress.caustic_paths = config.photons.caustic;
-  if (progress.passes == 0) progress.direct_samples = direct_samples(config);
+  if (progress.passes == 0) progress.direct_samples = first_direct_samples(config);
   result.interrupted = false;
   while (!result.interrupted && (progress.passes == 0 || !finished(config, progress))) {
     const PassKey key = job.key(progress.passes);

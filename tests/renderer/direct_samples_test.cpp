@@ -10,7 +10,7 @@
 namespace octolux::test {
 namespace {
 
-constexpr int kSize = 48;
+constexpr int kSize = 48;  // pixels across
 constexpr std::size_t kPixels = kSize * kSize;
 
 /// A pass over a picture of 3 with this much noise [standard deviation] in each path class.
@@ -68,8 +68,6 @@ TEST(WantedDirectSamples, ABlackPictureAsksForNone) {
   EXPECT_EQ(wanted_direct_samples(film_of(PassImage(kPixels)), PassImage(kPixels), 1), 0);
 }
 
-constexpr int kFilm = 48;  // pixels across, rendered
-
 std::vector<Film> films_with(const Scene& scene, int direct_samples) {
   RenderConfig config = photon_config(4, 5'000);
   config.eye.direct_samples = direct_samples;
@@ -83,25 +81,25 @@ double mean_direct(const Film& film, int c) {
   for (const Image& layer : {film.direct(), film.caustic()}) {
     for (const Rgb& pixel : layer.pixels) sum += pixel[c];
   }
-  return sum / (kFilm * kFilm);
+  return sum / kPixels;
 }
 
 /// Variance of direct light between pictures, of the median pixel: on glass few have nearly all.
 double direct_noise(const std::vector<Film>& films) {
-  std::vector<Running> pixels(kFilm * kFilm);
+  std::vector<Running> pixels(kPixels);
   for (const Film& film : films) {
     const Image direct = film.direct();
     for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i].add(direct.pixels[i].g);
   }
-  std::ranges::nth_element(pixels, pixels.begin() + kFilm * kFilm / 2, {}, &Running::variance);
-  return pixels[kFilm * kFilm / 2].variance();
+  std::ranges::nth_element(pixels, pixels.begin() + kPixels / 2, {}, &Running::variance);
+  return pixels[kPixels / 2].variance();
 }
 
 class DirectSamples : public testing::TestWithParam<const char*> {};
 
 TEST_P(DirectSamples, LeaveThePictureAndTakeItsNoise) {
   const auto scene = shipped_scene(GetParam());
-  resize_film(*scene, kFilm, kFilm);
+  resize_film(*scene, kSize, kSize);
   scene->hide_emitters = true;  // their edges are the same in all pixels of a pass
   const std::vector<Film> without = films_with(*scene, 0), with = films_with(*scene, 7);
   for (int c = 0; c < 3; ++c) {

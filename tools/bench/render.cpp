@@ -105,14 +105,12 @@ void report_ray_share(const Scene& scene) {
   const LightSampler lights(scene);
   std::vector<Tracer::LoggedRay> rays;
   const EyePaths logged{[&](Tracer& tracer, const Ray& ray, Gathered*) {
-                          tracer.log = &rays;
-                          return trace_path(tracer, lights, ray);
-                        },
-                        {}};
+    tracer.log = &rays;
+    return trace_path(tracer, lights, ray);
+  }};
   trace_pixels(scene, {}, {1, 0}, logged);
   const EyePaths paths{
-      [&](Tracer& tracer, const Ray& ray, Gathered*) { return trace_path(tracer, lights, ray); },
-      {}};
+      [&](Tracer& tracer, const Ray& ray, Gathered*) { return trace_path(tracer, lights, ray); }};
   RTCDevice device = rtcNewDevice(nullptr);
   RTCScene bare = bare_scene(device, scene);
   std::vector<double> share;
