@@ -65,6 +65,11 @@ TEST(AutomaticSettings, OnlyMinusOneStandsForThem) {
     config.eye.samples_per_pass = bad;
     EXPECT_THROW(check(config), Error) << bad;
   }
+  config = {};
+  config.eye.direct_samples = 0;
+  EXPECT_NO_THROW(check(config));
+  config.eye.direct_samples = -2;
+  EXPECT_THROW(check(config), Error);
 }
 
 }  // namespace
