@@ -30,8 +30,9 @@ struct LightSample {
 
 /// A photon leaving a light.
 struct EmittedPhoton {
-  Ray ray;   // starts off the light's surface; from infinite lights behind the scene
-  Rgb flux;  // [W] emitted radiance * cosine / pdf: mean over many = power of the light
+  Ray ray;              // starts off the light's surface; from infinite lights behind the scene
+  Rgb flux;             // [W] emitted radiance * cosine / pdf: mean over many = power of the light
+  bool narrow = false;  // from a light that is
 };
 
 /// Where a finite light is and where it shines to: every point of it lies in `bounds`, every normal
@@ -60,6 +61,10 @@ class Light {
 
   /// Empty for a light infinitely far away.
   virtual std::optional<LightExtent> extent() const { return std::nullopt; }
+
+  /// Does all its light come from so small a part of the sky, as the sun's does, that it casts
+  /// sharp shadows?
+  virtual bool narrow() const { return false; }
 
   /// Called once when the scene is complete, before anything is emitted or power() asked.
   virtual void set_scene_bounds(Vec3 /*center*/, float /*radius*/) {}
@@ -120,5 +125,10 @@ std::unique_ptr<EnvironmentLight> make_constant_light(Rgb radiance);
 /// values count as 0. Interpolated bilinearly and importance sampled. At least one pixel.
 std::unique_ptr<EnvironmentLight> make_envmap_light(Image image, const Affine& to_world,
                                                     float scale);
+
+/// Takes out of such an image what is far brighter than its mean and covers only a small part of
+/// the sky, as the sun does: that as an image of its own, narrow as a light, both together the
+/// image as it was. Empty if there is no such thing. NaN, infinite and negative values stay.
+std::optional<Image> take_out_sun(Image& image);
 
 }  // namespace octolux

@@ -25,6 +25,8 @@ class DirectionalLight final : public Light {
     return {start.ray, irradiance_ / start.pdf_a};
   }
 
+  bool narrow() const override { return true; }
+
   Rgb power() const override { return irradiance_ * scene_.cross_section(); }
 
   void set_scene_bounds(Vec3 center, float radius) override { scene_ = {center, radius, center}; }

@@ -13,6 +13,7 @@
 #include <numbers>
 
 #include "core/distribution.h"
+#include "core/envmap_sun.h"
 #include "core/light.h"
 #include "core/scene_sphere.h"
 #include "core/vec3d.h"
@@ -57,6 +58,7 @@ class EnvmapLight final : public EnvironmentLight {
         axes_(rotation_of(to_world)) {
     for (Rgb& c : image_.pixels) c = sanitised(c * scale);
     prepare();
+    narrow_ = lit_solid_angle(image_) <= kNarrow;
   }
 
   std::optional<LightSample> sample(Vec3 /*x*/, Vec2 u) const override {
@@ -91,6 +93,8 @@ class EnvmapLight final : public EnvironmentLight {
   Rgb radiance(Vec3 wi) const override { return radiance_at(locate(wi)); }
 
   float pdf_w(Vec3 wi) const override { return pdf_w_at(locate(wi)); }
+
+  bool narrow() const override { return narrow_; }
 
  private:
   using Corners = std::array<float, 4>;  // upper left, upper right, lower left, lower right
@@ -177,6 +181,7 @@ class EnvmapLight final : public EnvironmentLight {
   std::array<Vec3, 3> axes_;  // of the picture, in the world
   Distribution2D cells_;
   Rgb integral_;  // of radiance over directions [W m^-2]
+  bool narrow_ = false;
   SceneSphere scene_;
 };
 

@@ -85,6 +85,8 @@ class AimedLight : public Kind {
 
   Rgb power() const override { return light_->power(); }
 
+  bool narrow() const override { return light_->narrow(); }
+
   void set_scene_bounds(Vec3 center, float radius) override {
     scene_ = {center, radius, center};
     light_->set_scene_bounds(center, radius);

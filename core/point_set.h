@@ -86,7 +86,9 @@ enum class PixelUse : std::uint64_t {
   glossy_light_choice,
   specular_lobe,  // which of such lobes the path follows
   specular_direction,
-  lens  // where the path leaves the camera's
+  lens,           // where the path leaves the camera's
+  narrow_lights,  // places on narrow lights
+  glossy_narrow_lights
 };
 
 /// Where a pixel's eye sample stands in the pixel's sequences.

@@ -84,7 +84,8 @@ std::int64_t caustic_paths(const Scene& scene, const LightSampler& lights, const
   const std::unique_ptr<Estimator> estimator = make_estimator(trial.estimator);
   PhotonMaps maps;
   maps.caustics_mapped = true;
-  maps.global = trial_map(scene, {lights, aim.global}, PhotonKind::global, trial, *estimator);
+  maps.global =
+      trial_map(scene, {lights, aim.global, false}, PhotonKind::global, trial, *estimator);
   maps.caustic = trial_map(scene, {lights, aim.caustic}, PhotonKind::caustic, trial, *estimator);
   const Learned nothing;
   const FinalGather gather(scene, lights, maps, nothing, trial);

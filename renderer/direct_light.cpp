@@ -7,13 +7,20 @@ namespace octolux {
 
 namespace {
 
-float bsdf_share(const Arrival& arrival, float light_pdf_w) {
-  if (arrival.light_samples == 0) return 1;
+/// Of light from `light`.
+float bsdf_share(const Arrival& arrival, const Light& light, float light_pdf_w) {
   return power_heuristic(static_cast<float>(arrival.bsdf_samples), arrival.pdf_w,
-                         static_cast<float>(arrival.light_samples), light_pdf_w);
+                         static_cast<float>(arrival.light_samples.of(light)), light_pdf_w);
 }
 
+PointSet points_if_any(int n, Rng& rng) { return n > 0 ? PointSet(n, rng) : PointSet(0, 0u); }
+
 }  // namespace
+
+LightPoints::LightPoints(LightSamples n, Rng& rng)
+    : places(points_if_any(n.others, rng)),
+      narrow(points_if_any(n.narrow, rng)),
+      choice(rng.uniform()) {}
 
 Receiver receiver(const Scattering& at) {
   const SurfacePoint& point = at.point();
@@ -24,14 +31,22 @@ Receiver receiver(const Scattering& at) {
 Rgb sample_lights(Tracer& tracer, const LightSampler& lights, const Scattering& at,
                   const Receiver& lit, const DirectStrategy& strategy, const LightPoints& points) {
   if (lights.empty() || strategy.max_crossings < 0) return Rgb(0);
-  Rgb total(0);
-  const auto n = static_cast<float>(strategy.light_samples);
-  for (int i = 0; i < strategy.light_samples; ++i) {
-    const float u_light = (static_cast<float>(i) + points.choice) / n;
-    const LightSampler::Choice choice = lights.sample(lit, std::min(kOneMinusEpsilon, u_light));
-    total += sample_light(tracer, choice, points.places[i], at, strategy);
+  Rgb others(0), narrow(0);
+  const LightSamples n = strategy.light_samples;
+  const auto u_light = [&](int i, int of) {
+    return std::min(kOneMinusEpsilon,
+                    (static_cast<float>(i) + points.choice) / static_cast<float>(of));
+  };
+  for (int i = 0; i < n.others; ++i) {
+    const LightSampler::Choice choice = lights.sample(lit, u_light(i, n.others));
+    others += sample_light(tracer, choice, points.places[i], at, strategy);
   }
-  return total / n;
+  for (int i = 0; i < n.narrow; ++i) {
+    const LightSampler::Choice choice = lights.sample_narrow(u_light(i, n.narrow));
+    narrow += sample_light(tracer, choice, points.narrow[i], at, strategy);
+  }
+  const auto mean = [](Rgb sum, int of) { return of > 0 ? sum / static_cast<float>(of) : sum; };
+  return mean(others, n.others) + mean(narrow, n.narrow);
 }
 
 Rgb sample_light(Tracer& tracer, const LightSampler::Choice& choice, Vec2 u, const Scattering& at,
@@ -42,11 +57,11 @@ Rgb sample_light(Tracer& tracer, const LightSampler::Choice& choice, Vec2 u, con
   const Rgb scattered = at.f_cos(light->wi, strategy.lobes) * light->radiance;
   if (is_black(scattered)) return Rgb(0);
   const float pdf_w = choice.pmf * light->pdf_w;
-  const float share = light->delta
-                          ? 1.0f
-                          : power_heuristic(static_cast<float>(strategy.light_samples), pdf_w,
-                                            static_cast<float>(strategy.bsdf_samples),
-                                            at.pdf_w(light->wi, strategy.sampled));
+  const float share =
+      light->delta ? 1.0f
+                   : power_heuristic(static_cast<float>(strategy.light_samples.of(*choice.light)),
+                                     pdf_w, static_cast<float>(strategy.bsdf_samples),
+                                     at.pdf_w(light->wi, strategy.sampled));
   const Rgb value = scattered * (share / pdf_w);
   return is_black(value) ? value
                          : value * tracer.visibility(at.point(), *light, strategy.max_crossings);
@@ -55,16 +70,21 @@ Rgb sample_light(Tracer& tracer, const LightSampler::Choice& choice, Vec2 u, con
 Rgb emitted(const LightSampler& lights, const SurfaceHit& hit, Vec3 wo, const Arrival& arrival) {
   if (!hit.light) return Rgb(0);
   const Rgb radiance = hit.light->radiance(hit.point, wo);
-  if (is_black(radiance) || arrival.light_samples == 0) return radiance;
-  return radiance * bsdf_share(arrival, lights.pdf_w(arrival.from, *hit.light, hit.point));
+  if (is_black(radiance) || !arrival.light_samples.any()) return radiance;
+  const float pdf_w = lights.pdf_w(arrival.from, *hit.light, hit.point);
+  return radiance * bsdf_share(arrival, *hit.light, pdf_w);
 }
 
 Rgb environment(const Scene& scene, const LightSampler& lights, Vec3 wi, const Arrival& arrival) {
-  if (!scene.environment) return Rgb(0);
-  const Rgb radiance = scene.environment->radiance(wi);
-  if (arrival.light_samples == 0) return radiance;
-  const float pmf = lights.pmf_of_environment(arrival.from);
-  return radiance * bsdf_share(arrival, pmf * scene.environment->pdf_w(wi));
+  Rgb total(0);
+  for (const EnvironmentLight* light : scene.environment) {
+    const Rgb radiance = light->radiance(wi);
+    if (is_black(radiance)) continue;
+    const bool sampled = arrival.light_samples.any();
+    const float pdf_w = sampled ? lights.pdf_w(arrival.from, *light, wi) : 0;
+    total += radiance * (sampled ? bsdf_share(arrival, *light, pdf_w) : 1);
+  }
+  return total;
 }
 
 }  // namespace octolux

@@ -11,7 +11,7 @@ namespace octolux {
 struct DirectStrategy {
   Lobes lobes = Lobes::non_delta;  // whose light next-event estimation brings
   Lobes sampled = Lobes::all;      // the set BSDF sampling draws from
-  int light_samples = 1;
+  LightSamples light_samples;
   int bsdf_samples = 1;
   int max_crossings = 0;  // panes and masks a connection may cross; negative: no light
 };
@@ -20,13 +20,14 @@ struct DirectStrategy {
 /// the other side of the shading normal scatters nothing (core/scattering.h).
 Receiver receiver(const Scattering& at);
 
-/// What n light samples are drawn with: sample i chooses its light at (i + choice) / n of all, and
-/// its place there by places[i].
+/// What light samples are drawn with: of n, sample i chooses its light at (i + choice) / n of all,
+/// and its place there by places[i] or narrow[i].
 struct LightPoints {
-  LightPoints(int n, Rng& rng) : places(n, rng), choice(rng.uniform()) {}
-  LightPoints(PointSet places_, PointSet choices) : places(places_), choice(choices[0].x) {}
+  LightPoints(LightSamples n, Rng& rng);
+  LightPoints(PointSet places_, PointSet choices, PointSet narrow_)
+      : places(places_), narrow(narrow_), choice(choices[0].x) {}
 
-  PointSet places;
+  PointSet places, narrow;
   float choice;
 };
 
@@ -36,7 +37,7 @@ Rgb sample_lights(Tracer& tracer, const LightSampler& lights, const Scattering& 
                   const Receiver& lit, const DirectStrategy& strategy, const LightPoints& points);
 
 /// What one choice of a light brings, with `u` for the place on it, before dividing by the number
-/// of samples: its mean is that of sample_lights.
+/// of samples: its mean is that of sample_lights, for the kind of light chosen from.
 Rgb sample_light(Tracer& tracer, const LightSampler::Choice& choice, Vec2 u, const Scattering& at,
                  const DirectStrategy& strategy);
 
@@ -45,7 +46,7 @@ struct Arrival {
   Receiver from;    // the point that scattered last
   float pdf_w = 0;  // [sr^-1] of the scattered direction
   int bsdf_samples = 1;
-  int light_samples = 0;  // 0: no next-event estimation there; this technique has all
+  LightSamples light_samples;  // none: no next-event estimation there; this technique has all
 };
 
 /// Radiance that `hit` emits back along the path, the share of it that BSDF sampling has.

@@ -8,13 +8,15 @@ namespace octolux {
 namespace {
 
 /// Direct light by the non-delta specular lobes of `at`: L S* E found from the light's side.
-Rgb glossy_direct(Tracer& tracer, const LightSampler& lights, const Scattering& at, int samples,
-                  int segments, int max_crossings) {
+Rgb glossy_direct(Tracer& tracer, const LightSampler& lights, const Scattering& at,
+                  LightSamples samples, int segments, int max_crossings) {
   if (!at.bsdf().has(Lobes::near_specular)) return Rgb(0);
   const DirectStrategy strategy{Lobes::near_specular, Lobes::specular, samples, 1, max_crossings};
-  return sample_lights(tracer, lights, at, receiver(at), strategy,
-                       {tracer.sequence.points(PixelUse::glossy_lights, segments, samples),
-                        tracer.sequence.points(PixelUse::glossy_light_choice, segments, 1)});
+  const auto points = [&](PixelUse use, int n) { return tracer.sequence.points(use, segments, n); };
+  return sample_lights(
+      tracer, lights, at, receiver(at), strategy,
+      {points(PixelUse::glossy_lights, samples.others), points(PixelUse::glossy_light_choice, 1),
+       points(PixelUse::glossy_narrow_lights, samples.narrow)});
 }
 
 /// Draws among the specular lobes of `at`. The choices of a pixel, reflected or refracted above
@@ -45,8 +47,8 @@ Gathered first_gathered(const Scattering& at, Rgb weight, Rgb radiance, int segm
 /// Follows specular chains along `ray`. At surfaces with smooth lobes add(out, at, weight, bounces,
 /// segments) adds what leaves them.
 template <class Add>
-EyeSample follow_eye_path(Tracer& tracer, const LightSampler& lights, Ray ray, int light_samples,
-                          Add add) {
+EyeSample follow_eye_path(Tracer& tracer, const LightSampler& lights, Ray ray,
+                          LightSamples light_samples, Add add) {
   const Scene& scene = tracer.scene();
   const int max_segments = scene.max_depth < 0 ? 1 << 20 : scene.max_depth;
   EyeSample out;
@@ -77,7 +79,7 @@ EyeSample follow_eye_path(Tracer& tracer, const LightSampler& lights, Ray ray, i
     if (bounces >= kSafeBounces && !survives(tracer.rng, beta, survival(beta, eta))) break;
     ray = at.spawn(sample->wi);
     arrival = {receiver(at), sample->pdf_w, 1,
-               sample->lobe == Lobes::near_specular ? light_samples : 0};
+               sample->lobe == Lobes::near_specular ? light_samples : LightSamples()};
   }
   return out;
 }

@@ -47,7 +47,7 @@ class FinalGather {
   SplitRadiance direct(Tracer& tracer, const Scattering& at, int segments) const;
 
   /// Light samples at a point; none if nothing emits.
-  int light_samples() const { return light_samples_; }
+  LightSamples light_samples() const { return light_samples_; }
 
  private:
   struct Level {
@@ -62,11 +62,12 @@ class FinalGather {
   Rgb gathered(Tracer& tracer, const Scattering& at, const Level& level, const Receiver& lit,
                const GatherPoint& point) const;
   Receiver learned_receiver(const Scattering& at) const;
-  int light_samples(const Level& level) const;
+  LightSamples light_samples(const Level& level) const;
   Rgb follow(Tracer& tracer, Ray ray, const Level& level, Arrival arrival) const;
   Rgb scattered(Tracer& tracer, const Scattering& at, const Level& here, float distance) const;
+  Rgb narrow_direct(Tracer& tracer, const Scattering& at, const Level& here) const;
   GatherDirections::Points gather_points(Tracer& tracer, const Level& level, int guided) const;
-  LightPoints light_points(Tracer& tracer, const Level& level, int n) const;
+  LightPoints light_points(Tracer& tracer, const Level& level, LightSamples n) const;
   GatherPoint gather_point(Tracer& tracer, const Scattering& at, int segments) const;
   float read_distance(const GatherPoint& at) const;
   int remaining(int segments) const;
@@ -76,7 +77,7 @@ class FinalGather {
   const PhotonMaps& maps_;
   const Learned& learned_;
   const RenderConfig& config_;
-  int light_samples_;
+  LightSamples light_samples_;
 };
 
 }  // namespace octolux

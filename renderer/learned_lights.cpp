@@ -30,7 +30,8 @@ struct Glance {
 void try_lights(Tracer& tracer, const LightSampler& lights, const Scattering& at,
                 const EyeConfig& eye, Glance& glance) {
   glance.place = {at.point().position, at.facing_normal()};
-  const DirectStrategy strategy{Lobes::smooth, Lobes::smooth, eye.light_samples, eye.gather_rays,
+  const DirectStrategy strategy{Lobes::smooth, Lobes::smooth, lights.divided(eye.light_samples),
+                                eye.gather_rays,
                                 tracer.scene().max_depth < 0 ? 1 << 20 : tracer.scene().max_depth};
   const Receiver lit = receiver(at);
   for (int i = 0; i < kTrials; ++i) {

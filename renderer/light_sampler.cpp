@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include "core/sampling.h"
@@ -25,6 +26,12 @@ constexpr double kLeastShare = 1e-12;
 /// This share of the choices does not follow what was learned: so much variance is lost at most
 /// where it is wrong, and gained where it is right. (Measured: 1/4 is nearly as good.)
 constexpr float kUnlearned = 0.125f;
+
+/// -1 if it is none of them.
+int index_of(const std::vector<const Light*>& lights, const Light& light) {
+  const auto found = std::find(lights.begin(), lights.end(), &light);
+  return found == lights.end() ? -1 : static_cast<int>(found - lights.begin());
+}
 
 /// Probability of a group which without learning is `pmf`.
 float pmf_of_group(const Receiver& at, int group, float pmf) {
@@ -48,9 +55,6 @@ LightSampler::LightSampler(const Scene& scene) {
   cut(scene);
   divide(power);
 
-  for (std::size_t i = 0; i < infinite_.size(); ++i) {
-    if (infinite_[i] == scene.environment) environment_ = static_cast<int>(i);
-  }
   std::vector<int> first(lights_.size(), -1);
   for (std::size_t i = 0, next = 0; i < lights_.size(); ++i) {
     if (next >= finite_.size() || lights_[i] != finite_[next].light) continue;
@@ -84,11 +88,14 @@ void LightSampler::cut(const Scene& scene) {
 /// Fills what `sample` looks at.
 void LightSampler::divide(const std::vector<double>& power) {
   std::vector<LightBounds> bounds;
-  std::vector<double> weights;
+  std::vector<double> weights, narrow;
   double in_tree = 0;
   for (std::size_t i = 0; i < lights_.size(); ++i) {
     if (power[i] == 0) continue;
-    if (const MeshParts* parts = parts_[i].get()) {
+    if (lights_[i]->narrow()) {
+      narrow.push_back(power[i]);
+      narrow_lights_.push_back(lights_[i]);
+    } else if (const MeshParts* parts = parts_[i].get()) {
       for (int k = 0; k < parts->size(); ++k) {
         const double share = std::max(parts->share(k), kLeastShare);
         bounds.push_back({parts->extent(k), std::sqrt(power[i]) * share});
@@ -105,9 +112,11 @@ void LightSampler::divide(const std::vector<double>& power) {
     }
   }
   tree_ = LightTree(bounds);
+  narrow_ = Distribution1D(narrow);
   weights.push_back(in_tree);
   const double kinds = static_cast<double>(infinite_.size()) + (in_tree > 0 ? 1 : 0);
-  for (double& w : weights) w = w > 0 ? 0.5 / kinds + 0.5 * w / total_power() : 0;
+  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+  for (double& w : weights) w = w > 0 ? 0.5 / kinds + 0.5 * w / total : 0;
   kinds_ = Distribution1D(weights);
   pmf_of_tree_ = kinds_.pmf(static_cast<int>(infinite_.size()));
 }
@@ -143,7 +152,7 @@ LightSampler::Choice LightSampler::sample_learned(const Receiver& at, float u) c
 }
 
 LightSampler::Choice LightSampler::sample(const Receiver& at, float u) const {
-  if (empty()) return {};
+  if (only_narrow()) return {};
   Choice chosen;
   if (at.learned.empty()) {
     chosen = sample_unlearned(at, u);
@@ -162,6 +171,20 @@ LightSampler::Choice LightSampler::sample_for_emission(float u) const {
   return {lights_[chosen.index], chosen.pmf};
 }
 
+LightSampler::Choice LightSampler::sample_narrow(float u) const {
+  if (!(narrow_.total() > 0)) return {};
+  const Distribution1D::Sample chosen = narrow_.sample(u);
+  return {narrow_lights_[chosen.index], chosen.pmf};
+}
+
+LightSamples LightSampler::divided(int n) const {
+  if (empty()) return {};
+  if (narrow_lights_.empty()) return {n, 0};
+  if (only_narrow()) return {0, n};
+  const int narrow = std::max(1, n / 2);
+  return {std::max(1, n - narrow), narrow};
+}
+
 float LightSampler::pmf_of_shape(const Receiver& at, std::uint32_t shape,
                                  std::uint32_t primitive) const {
   if (leaves_of_shape_.empty() || leaves_of_shape_[shape].first < 0) return 0;
@@ -171,8 +194,12 @@ float LightSampler::pmf_of_shape(const Receiver& at, std::uint32_t shape,
   return chosen.pmf * pmf_of_group(at, chosen.group, chosen.pmf_of_group);
 }
 
-float LightSampler::pmf_of_environment(const Receiver& at) const {
-  return environment_ < 0 ? 0 : pmf_of_group(at, environment_, kinds_.pmf(environment_));
+float LightSampler::pdf_w(const Receiver& at, const EnvironmentLight& light, Vec3 wi) const {
+  if (const int narrow = index_of(narrow_lights_, light); narrow >= 0) {
+    return narrow_.pmf(narrow) * light.pdf_w(wi);
+  }
+  const int index = index_of(infinite_, light);
+  return index < 0 ? 0 : pmf_of_group(at, index, kinds_.pmf(index)) * light.pdf_w(wi);
 }
 
 float LightSampler::pdf_w(const Receiver& at, const AreaLight& light, const SurfacePoint& y) const {

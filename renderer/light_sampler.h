@@ -23,6 +23,14 @@ namespace octolux {
 
 struct Scene;
 
+/// How many light samples a point takes: of narrow lights, and of all others.
+struct LightSamples {
+  int others = 0;
+  int narrow = 0;
+  bool any() const { return others + narrow > 0; }
+  int of(const Light& light) const { return light.narrow() ? narrow : others; }
+};
+
 class LightSampler {
  public:
   /// `scene` must be complete and outlive the sampler.
@@ -46,6 +54,10 @@ class LightSampler {
   Choice sample(const Receiver& at, float u) const;
   /// A light for a photon to leave, exactly in proportion to power (mean of the channels).
   Choice sample_for_emission(float u) const;
+  /// One of the narrow lights, in proportion to power; none if there are none.
+  Choice sample_narrow(float u) const;
+  /// About n samples, at least one of either kind that there is.
+  LightSamples divided(int n) const;
 
   /// Probability that `sample` chooses the area light that shape `shape` is, or the part of it that
   /// triangle `primitive` is in; 0 if it is none.
@@ -53,8 +65,8 @@ class LightSampler {
   /// Density [sr^-1] with which a choice by `sample` and a sample of it choose the direction from
   /// `at` to y, which is on `light`.
   float pdf_w(const Receiver& at, const AreaLight& light, const SurfacePoint& y) const;
-  /// Probability that `sample` chooses the environment; 0 if there is none.
-  float pmf_of_environment(const Receiver& at) const;
+  /// The same for a light that surrounds the scene and the direction `wi`.
+  float pdf_w(const Receiver& at, const EnvironmentLight& light, Vec3 wi) const;
   /// Groups that can be told apart by learning.
   int groups() const { return infinite() + tree_.groups(); }
 
@@ -71,6 +83,7 @@ class LightSampler {
     int part = 0;
   };
   void divide(const std::vector<double>& power);
+  bool only_narrow() const { return infinite_.empty() && finite_.empty(); }
   int infinite() const { return static_cast<int>(infinite_.size()); }
   Choice sample_unlearned(const Receiver& at, float u) const;
   Choice sample_learned(const Receiver& at, float u) const;
@@ -85,7 +98,8 @@ class LightSampler {
   LightTree tree_;
   Distribution1D kinds_;  // every infinite light, then the tree
   float pmf_of_tree_ = 0;
-  int environment_ = -1;  // index in infinite_
+  std::vector<const Light*> narrow_lights_;  // those with power, as in `narrow_`
+  Distribution1D narrow_;                    // by power
   /// Per shape: its parts or nullptr, and its (first) index in finite_ or -1.
   struct Leaves {
     const MeshParts* parts = nullptr;

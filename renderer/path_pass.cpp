@@ -9,6 +9,7 @@ namespace octolux {
 EyeSample trace_path(Tracer& tracer, const LightSampler& lights, Ray ray) {
   const Scene& scene = tracer.scene();
   const int max_segments = scene.max_depth < 0 ? 1 << 20 : scene.max_depth;
+  const LightSamples light_samples = lights.divided(1);
   EyeSample out;
   Rgb beta(1);
   float eta = 1;
@@ -31,8 +32,10 @@ EyeSample trace_path(Tracer& tracer, const LightSampler& lights, Ray ray) {
     const bool samples_lights = hit->bsdf->has(Lobes::non_delta) && !lights.empty();
     if (samples_lights) {
       Rgb& lit = bounces == 0 ? out.direct : out.indirect;
-      const DirectStrategy strategy{.max_crossings = max_segments - segments - 1};
-      lit += beta * sample_lights(tracer, lights, at, receiver(at), strategy, {1, tracer.rng});
+      const DirectStrategy strategy{.light_samples = light_samples,
+                                    .max_crossings = max_segments - segments - 1};
+      lit += beta *
+             sample_lights(tracer, lights, at, receiver(at), strategy, {light_samples, tracer.rng});
     }
     const std::optional<BsdfSample> sample = sample_lobes(tracer.rng, at, Lobes::all);
     if (!sample) break;
@@ -41,7 +44,7 @@ EyeSample trace_path(Tracer& tracer, const LightSampler& lights, Ray ray) {
     if (bounces >= kSafeBounces && !survives(tracer.rng, beta, survival(beta, eta))) break;
     ray = at.spawn(sample->wi);
     arrival = {receiver(at), sample->pdf_w, 1,
-               samples_lights && sample->lobe != Lobes::delta ? 1 : 0};
+               samples_lights && sample->lobe != Lobes::delta ? light_samples : LightSamples()};
   }
   return out;
 }

@@ -36,7 +36,7 @@ PhotonMemory foresee_photons(const Scene& scene, const LightSampler& lights, con
                              const RenderConfig& config) {
   const PassKey key{config.seed, 0};
   const bool gather = config.eye.gather;
-  const double per_path = stored(scene, {lights, aim.global}, PhotonKind::global, key);
+  const double per_path = stored(scene, {lights, aim.global, !gather}, PhotonKind::global, key);
   const double global = per_path * static_cast<double>(config.photons.global);
   double caustic = 0, reach = 0, sites = 0;  // reach: photons that tell how far records serve
   if (gather && config.photons.caustic > 0) {

@@ -49,8 +49,9 @@ std::vector<PhotonPass> trace_batch(const Scene& scene, const PhotonSource& sour
           (static_cast<double>(index) + tracer.rng.uniform()) / static_cast<double>(batch.all);
       const EmissionDensity::Sample sample = source.density.sample(u, tracer.rng);
       const float photons_like_it = static_cast<float>(batch.all) / sample.weight;
-      trace_photon(tracer, emit_photon(source.lights, sample.at, photons_like_it), kind,
-                   part.photons);
+      EmittedPhoton photon = emit_photon(source.lights, sample.at, photons_like_it);
+      photon.narrow &= !source.all;
+      trace_photon(tracer, photon, kind, part.photons);
       part.rays += tracer.rays();
     }
   };
@@ -65,6 +66,7 @@ EmittedPhoton emit_photon(const LightSampler& lights, const EmissionPoint& at, f
   const LightSampler::Choice choice = lights.sample_for_emission(at[0]);
   EmittedPhoton photon = choice.light->emit({at[1], at[2]}, {at[3], at[4]});
   photon.flux *= 1 / (choice.pmf * count);
+  photon.narrow = choice.light->narrow();
   return photon;
 }
 
@@ -74,6 +76,7 @@ void trace_photon(Tracer& tracer, const EmittedPhoton& start, PhotonKind kind,
   const int max_depth = tracer.scene().max_depth;
   const int max_segments = max_depth < 0 ? 1 << 20 : max_depth - 1;
   const bool caustic = kind == PhotonKind::caustic;
+  const int first_stored = caustic || start.narrow ? 1 : 0;  // by bounces before it
   const Lobes followed = caustic ? Lobes::specular : Lobes::all;
   const std::optional<Focus>& focus = tracer.scene().focus;
   Flight flight{start.ray, start.flux};
@@ -82,7 +85,7 @@ void trace_photon(Tracer& tracer, const EmittedPhoton& start, PhotonKind kind,
     if (!hit || flight.segments > max_segments) return;
     flight.flown += hit->distance;
     const Scattering at(hit->point, *hit->bsdf, -flight.ray.direction, Carried::flux);
-    if (hit->bsdf->has(Lobes::smooth) && (!caustic || bounces > 0)) {
+    if (hit->bsdf->has(Lobes::smooth) && bounces >= first_stored) {
       photons.push_back({hit->point.position, at.wo(), at.facing_normal(), flight.flux,
                          flight.segments, hit->point.error, at.facing_shading_normal(),
                          flight.scattered ? flight.flown : 0});

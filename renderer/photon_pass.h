@@ -35,6 +35,7 @@ struct PassKey {
 struct PhotonSource {
   const LightSampler& lights;
   const EmissionDensity& density;
+  bool all = true;  // also what gather rays sample where they end: narrow lights' direct light?
 };
 
 /// Emits `count` paths [flux already divided by it].
@@ -46,7 +47,8 @@ PhotonPass trace_photons(const Scene& scene, const LightSampler& lights, PhotonK
 
 /// The photon that starts at `at`, as one of `count` emitted by power.
 EmittedPhoton emit_photon(const LightSampler& lights, const EmissionPoint& at, float count);
-/// Follows it, and appends what is stored on its way.
+/// Follows it, and appends what is stored on its way: of a narrow light, not where it arrives
+/// straight from there.
 void trace_photon(Tracer& tracer, const EmittedPhoton& start, PhotonKind kind,
                   std::vector<Photon>& photons);
 

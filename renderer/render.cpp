@@ -62,7 +62,8 @@ RadianceMap make_map(const Job& job, PhotonKind kind, PassKey key, Progress& pro
   const PhotonConfig& photons = job.config.photons;
   const bool global = kind == PhotonKind::global;
   Stopwatch watch;
-  const PhotonSource source{job.lights, global ? job.aim.global : job.aim.caustic};
+  const PhotonSource source{job.lights, global ? job.aim.global : job.aim.caustic,
+                            !job.config.eye.gather};
   PhotonPass traced =
       trace_photons(job.scene, source, kind, global ? photons.global : photons.caustic, key);
   progress.rays += traced.rays;
@@ -84,7 +85,7 @@ GatherRecords make_records(const Job& job, const RadianceMap& map, PassKey key,
   const RenderConfig& config = job.config;
   if (!config.eye.gather) return {};
   Stopwatch watch;
-  const PhotonSource source{job.lights, job.aim.global};
+  const PhotonSource source{job.lights, job.aim.global, false};
   const RecordPass traced = trace_record_sites(job.scene, source, config, map.bandwidth(), key);
   progress.rays += traced.rays;
   progress.timing.photons += watch.lap();

@@ -65,9 +65,11 @@ void Scene::complete(const LoadProgress& progress) {
 void Scene::place_lights() {
   Bounds everything = bounds;
   everything.add(camera_config.to_world.point({0, 0, 0}));
+  environment.clear();
   for (const std::unique_ptr<Light>& light : lights) {
     light->set_scene_bounds(everything.center(), everything.radius());
-    if (const auto* sky = dynamic_cast<const EnvironmentLight*>(light.get())) environment = sky;
+    const auto* surrounding = dynamic_cast<const EnvironmentLight*>(light.get());
+    if (surrounding) environment.push_back(surrounding);
   }
   // Worth a focus: light from far away, and a small part of the scene that it is wanted in.
   constexpr float kSmall = 1 / 8.0f;

@@ -25,8 +25,8 @@ struct Scene {
   std::vector<std::unique_ptr<Bsdf>> bsdfs;
   std::vector<std::unique_ptr<Texture>> textures;
   std::vector<std::unique_ptr<Light>> lights;
-  const EnvironmentLight* environment = nullptr;  // one of `lights`, or none
-  std::vector<TriangleMesh> portals;              // where light from far away comes in; no surfaces
+  std::vector<const EnvironmentLight*> environment;  // those of `lights`; rays that escape see all
+  std::vector<TriangleMesh> portals;  // where light from far away comes in; no surfaces
 
   CameraConfig camera_config;
   FilmSize film;

@@ -146,7 +146,7 @@ void add_daylight(Properties& p, SceneBuilder& b, bool with_sky, bool with_sun) 
     }
     if (!with_sky && radius_scale == 0) return;
   }
-  set_environment(make_envmap_light(std::move(map), d.to_world, 1), p, b);
+  set_environment(std::move(map), d.to_world, 1, p, b);
 }
 
 }  // namespace

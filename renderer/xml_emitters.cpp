@@ -20,17 +20,28 @@ bool is_dark(const Properties& p, Rgb emission, SceneBuilder& b) {
   return true;
 }
 
+void add_environment(std::unique_ptr<EnvironmentLight> light, Scene& scene) {
+  scene.environment.push_back(light.get());
+  scene.lights.push_back(std::move(light));
+}
+
 }  // namespace
 
 void set_environment(std::unique_ptr<EnvironmentLight> light, const Properties& p,
                      SceneBuilder& b) {
   Scene& scene = b.scene();
-  if (scene.environment) {
+  if (!scene.environment.empty()) {
     fail(p.node().where,
          "there can be only one emitter that surrounds the scene (constant, envmap, sun, sky)");
   }
-  scene.environment = light.get();
-  scene.lights.push_back(std::move(light));
+  add_environment(std::move(light), scene);
+}
+
+void set_environment(Image image, const Affine& to_world, float scale, const Properties& p,
+                     SceneBuilder& b) {
+  std::optional<Image> sun = take_out_sun(image);
+  set_environment(make_envmap_light(std::move(image), to_world, scale), p, b);
+  if (sun) add_environment(make_envmap_light(std::move(*sun), to_world, scale), b.scene());
 }
 
 namespace {
@@ -58,7 +69,7 @@ void environment_map(Properties& p, SceneBuilder& b) {
   p.ignore({"mis_compensation", "cache"});
   Image image = read_image(b.file(p, "filename"), Encoding::automatic);
   if (is_dark(p, Rgb(scale), b)) return;
-  set_environment(make_envmap_light(std::move(image), to_world, scale), p, b);
+  set_environment(std::move(image), to_world, scale, p, b);
 }
 
 /// Towards which +z of to_world, or 'direction', shines.

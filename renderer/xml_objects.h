@@ -42,6 +42,9 @@ void add_light(Properties& properties, SceneBuilder& builder);
 /// Makes `light` the scene's environment, of which there can be only one.
 void set_environment(std::unique_ptr<EnvironmentLight> light, const Properties& properties,
                      SceneBuilder& builder);
+/// The same for an environment map (make_envmap_light); a sun in it becomes a light of its own.
+void set_environment(Image image, const Affine& to_world, float scale, const Properties& properties,
+                     SceneBuilder& builder);
 /// Makes Scene::shapes[shape] emit. The list of shapes must be final.
 void add_area_light(const XmlNode& emitter, std::size_t shape, SceneBuilder& builder);
 

@@ -65,7 +65,8 @@ std::string material_kind(const Bsdf& bsdf) {
 
 std::string light_kind(const Light& light) {
   if (dynamic_cast<const AreaLight*>(&light)) return "area";
-  if (dynamic_cast<const EnvironmentLight*>(&light)) return "environment";
+  const bool environment = dynamic_cast<const EnvironmentLight*>(&light) != nullptr;
+  if (environment) return light.narrow() ? "sun of the environment" : "environment";
   return "point or directional";
 }
 

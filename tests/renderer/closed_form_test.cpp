@@ -47,6 +47,23 @@ TEST(ClosedForm, DirectLightOfARectangle) {
   }
 }
 
+/// A square of floor in the sun, and what it sends up to the underside of a small plate: no photon
+/// need land there, however few there are.
+TEST(ClosedForm, SunlightReflectedOnce) {
+  const auto loaded =
+      scene_from(scene(sensor_xml("0.5, 0.2, 0", "0, 1.5, 0", 0.2, 8, 8) +
+                       horizontal(0.7, 0.4, 0, true, diffuse(0.6)) +
+                       horizontal(0.02, 0.02, 1.5, false, diffuse(0.5)) +
+                       "<emitter type='directional'><vector name='direction' x='3' y='-4' z='0'/>"
+                       "<rgb name='irradiance' value='10'/></emitter>"));
+  const double floor = 0.6 * 10 * 0.8 / std::numbers::pi;
+  const double expected = 0.5 * floor * rectangle_form_factor(0.7, 0.4, 1.5);
+  for (const RenderConfig& config : {path_config(64), photon_config(64, 100)}) {
+    const MeanRadiance seen = mean_radiance(render_film(*loaded, config));
+    EXPECT_NEAR(seen.mean, expected, 4 * seen.standard_error + 1e-4 * expected);
+  }
+}
+
 TEST(ClosedForm, FluxBetweenFacingSquares) {
   // Two unit squares one apart: F = 0.19982 (Howell, configuration C-11, X = Y = 1).
   const double x = 1, y = 1;

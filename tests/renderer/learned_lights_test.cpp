@@ -106,7 +106,7 @@ void look(const Scene& scene, const LearnedLights& learned, int paths, const See
   }
 }
 
-constexpr DirectStrategy kOneSample{Lobes::smooth, Lobes::smooth, 1, 1, 0};
+constexpr DirectStrategy kOneSample{Lobes::smooth, Lobes::smooth, {1, 0}, 1, 0};
 
 /// The share of `draws` light samples that bring light.
 double bring_light(const Scene& scene, const LightSampler& lights, const LearnedLights& learned) {
@@ -132,7 +132,7 @@ TEST(LearnedLights, ChoicesAreAsTheirProbabilitiesSay) {
   auto scene = room_beside_hall(true);
   auto sky = make_constant_light(Rgb(0.5f));
   sky->set_scene_bounds({}, 1);
-  scene->environment = sky.get();
+  scene->environment.push_back(sky.get());
   scene->lights.push_back(std::move(sky));
   const LightSampler lights(*scene);
   const auto groups = static_cast<std::size_t>(lights.groups());
@@ -153,7 +153,8 @@ TEST(LearnedLights, ChoicesAreAsTheirProbabilitiesSay) {
       expected.push_back(static_cast<double>(lights.pmf_of_shape(at, index)));
       left -= expected.back();
     }
-    expected.push_back(static_cast<double>(lights.pmf_of_environment(at)));
+    expected.push_back(static_cast<double>(lights.pdf_w(at, *scene->environment[0], kUp) /
+                                           scene->environment[0]->pdf_w(kUp)));
     left -= expected.back();
     EXPECT_GT(left, -1e-5);
     EXPECT_NEAR(left, known == nothing ? 0.875 : 0, 1e-5);
@@ -182,7 +183,8 @@ TEST(LearnedLights, TheMeanIsTheSameAndTheNoiseLess) {
     Result result;
     look(*scene, learned, 40'000, [&](Tracer& tracer, const Scattering& at, const Receiver& lit) {
       const auto sample = [&] {
-        return luminance(sample_lights(tracer, lights, at, lit, kOneSample, {1, tracer.rng}));
+        return luminance(sample_lights(tracer, lights, at, lit, kOneSample,
+                                       {kOneSample.light_samples, tracer.rng}));
       };
       const double a = sample(), b = sample();
       result.mean.add(a);

@@ -35,7 +35,7 @@ void fill(Scene& scene) {
   scene.lights.push_back(make_area_light(scene.shapes[3], Rgb(0)));
   auto sky = make_constant_light(Rgb(0.5f));
   sky->set_scene_bounds({}, std::sqrt(kInvPi));
-  scene.environment = sky.get();
+  scene.environment.push_back(sky.get());
   scene.lights.push_back(std::move(sky));
 }
 
@@ -71,7 +71,8 @@ TEST(LightSampler, ChoosesAsDocumented) {
   EXPECT_GT(share_p(scene, power, [&](float u) { return sampler.sample_for_emission(u); }), kAlpha);
   EXPECT_EQ(sampler.pmf_of_shape(kAbove, 1), 0);
   EXPECT_EQ(sampler.pmf_of_shape(kAbove, 3), 0);
-  EXPECT_FLOAT_EQ(sampler.pmf_of_environment(kAbove), 0.35f);
+  const EnvironmentLight& sky = *scene.environment.front();
+  EXPECT_FLOAT_EQ(sampler.pdf_w(kAbove, sky, {0, 0, 1}), 0.35f * sky.pdf_w({0, 0, 1}));
   EXPECT_NEAR(sampler.total_power(), 10 * std::acos(-1.0), 1e-5);
 }
 
@@ -152,12 +153,45 @@ TEST(LightSampler, PhotonFluxOverPmfIsTheTotalPowerForGreyLights) {
   }
 }
 
+/// A sun of 3 pi W and another of pi W beside the others.
+TEST(LightSampler, NarrowLightsAreChosenApart) {
+  Scene scene;
+  for (const float irradiance : {3.0f, 1.0f}) {
+    scene.lights.push_back(make_directional_light({0, 0, -1}, Rgb(irradiance)));
+    scene.lights.back()->set_scene_bounds({}, 1);
+  }
+  const LightSampler suns(scene);
+  EXPECT_EQ(suns.sample(kAbove, 0.5f).light, nullptr);
+  EXPECT_EQ(suns.groups(), 0);
+  EXPECT_EQ(suns.divided(4).others, 0);
+  EXPECT_EQ(suns.divided(4).narrow, 4);
+  fill(scene);
+  const LightSampler all(scene);
+  Scene without;
+  fill(without);
+  const LightSampler others(without);
+  for (float u = 0.01f; u < 1; u += 0.05f) {
+    const LightSampler::Choice chosen = all.sample(kAbove, u), same = others.sample(kAbove, u);
+    EXPECT_FALSE(chosen.light->narrow());
+    EXPECT_EQ(chosen.pmf, same.pmf);
+  }
+  const std::vector<double> narrow{0.75, 0.25};
+  EXPECT_GT(share_p(scene, narrow, [&](float u) { return all.sample_narrow(u); }), kAlpha);
+  EXPECT_EQ(others.sample_narrow(0.5f).light, nullptr);
+  EXPECT_EQ(others.divided(4).narrow, 0);
+  for (const auto& [n, on_others, on_narrow] : {std::tuple{1, 1, 1}, {2, 1, 1}, {5, 3, 2}}) {
+    EXPECT_EQ(all.divided(n).others, on_others);
+    EXPECT_EQ(all.divided(n).narrow, on_narrow);
+  }
+}
+
 TEST(LightSampler, NoLightOrNoPower) {
   Scene dark;
   const LightSampler none(dark);
   EXPECT_EQ(none.sample(kAbove, 0.5f).light, nullptr);
   EXPECT_EQ(none.sample_for_emission(0.5f).light, nullptr);
-  EXPECT_EQ(none.pmf_of_environment(kAbove), 0);
+  EXPECT_EQ(none.pdf_w(kAbove, *make_constant_light(Rgb(1)), {0, 0, 1}), 0);
+  EXPECT_FALSE(none.divided(4).any());
   EXPECT_EQ(none.total_power(), 0);
   dark.lights.push_back(make_point_light({0, 0, 0}, Rgb(0)));
   const LightSampler black(dark);

@@ -165,7 +165,7 @@ TEST(LightTree, BringsTheLightThatUniformChoiceBrings) {
     if (count != 2) {
       auto sky = make_constant_light(Rgb(0.3f));
       sky->set_scene_bounds({2, 1, 2}, 4);
-      scene.environment = sky.get();
+      scene.environment.push_back(sky.get());
       scene.lights.push_back(std::move(sky));
     }
     const LightSampler sampler(scene);

@@ -52,6 +52,37 @@ TEST(TracePhotons, GlassScattersNothingAndWallsDo) {
   EXPECT_GT(count(all, 3).straight, 100);
 }
 
+/// A room whose ceiling lets the sun in through a hole; a mirror lies on its floor.
+TEST(TracePhotons, OfANarrowLightOnlyWhatDoesNotArriveStraight) {
+  const auto scene =
+      scene_from("<scene version='3.0.0'>" + sensor_xml("0, 1, 3", "0, 1, 0", 40, 8, 8) + R"(
+    <shape type='rectangle'><transform name='to_world'><scale value='4'/>
+      <rotate x='1' angle='-90'/></transform></shape>
+    <shape type='rectangle'><transform name='to_world'><scale value='0.5'/>
+      <rotate x='1' angle='-90'/><translate y='0.01'/></transform>
+      <bsdf type='conductor'><string name='material' value='none'/></bsdf></shape>
+    <shape type='rectangle'><transform name='to_world'><scale value='4'/>
+      <rotate x='1' angle='90'/><translate x='4.5' y='3'/></transform></shape>
+    <emitter type='directional'><vector name='direction' x='1' y='-4' z='0'/></emitter></scene>)");
+  const LightSampler lights(*scene);
+  const auto stored = [&](bool all) {
+    const PhotonSource source{lights, EmissionDensity(), all};
+    return trace_photons(*scene, source, PhotonKind::global, kPaths, {1, 0}).photons;
+  };
+  std::vector<Photon> rest;
+  int straight = 0, reflected = 0;
+  for (const Photon& p : stored(true)) {
+    if (p.segments > 1) rest.push_back(p);
+    straight += p.segments == 1;
+    reflected += p.segments == 2 && !scattered(p);
+  }
+  EXPECT_GT(straight, 1000);
+  EXPECT_GT(reflected, 100);
+  const std::vector<Photon> kept = stored(false);
+  ASSERT_EQ(kept.size(), rest.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) EXPECT_EQ(kept[i].position, rest[i].position);
+}
+
 TEST(TracePhotons, KnowHowFarTheyFlewFromTheSurfaceThatScatteredThem) {
   // A closed room of 4 m: photons come from its walls, none of which reaches into it.
   const auto scene =

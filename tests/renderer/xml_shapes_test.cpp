@@ -102,8 +102,8 @@ TEST(XmlEmitter, PointAndConstant) {
                  "<rgb name='intensity' value='300'/></emitter><emitter type='constant'/>"));
   ASSERT_EQ(scene->lights.size(), 2u);
   EXPECT_NEAR(scene->lights[0]->power().g, 300 * 4 * kPi, 1e-2f);
-  ASSERT_NE(scene->environment, nullptr);
-  EXPECT_EQ(scene->environment->radiance({0, 0, 1}), Rgb(1));
+  ASSERT_EQ(scene->environment.size(), 1u);
+  EXPECT_EQ(scene->environment[0]->radiance({0, 0, 1}), Rgb(1));
 }
 
 TEST(XmlEmitter, BlackOnesAreLeftOut) {
