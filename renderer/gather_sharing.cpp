@@ -2,8 +2,10 @@
 #include "renderer/gather_sharing.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "core/scattering.h"
 #include "renderer/roulette.h"
@@ -19,10 +21,17 @@ constexpr float kMinCosine = 0.95f;  // between their normals
 constexpr int kProbeRays = 2;        // from each pixel
 constexpr int kProbePixels = 2;      // how far apart pixels may be that are probed together
 
+Vec3 squares(Vec3 v) { return {v.x * v.x, v.y * v.y, v.z * v.z}; }
+Vec3 products(Vec3 v) { return {v.y * v.z, v.z * v.x, v.x * v.y}; }
+
 /// What lies around the surface at one pixel.
 struct Probe {
-  Vec3 normal;
-  float nearness = 0;  // [1/m] mean inverse distance
+  struct End {
+    float inverse = 0;  // [1/m] of the distance; 0: the ray left the scene
+    Vec3 normal;
+  };
+  Vec3 position, normal;
+  std::array<End, kProbeRays> ends;
   bool lambertian = false;
 };
 
@@ -49,38 +58,84 @@ Probe probe(const Scene& scene, Tracer& tracer, Vec2 pixel) {
   const Scattering at(hit->point, *hit->bsdf, -ray.direction, Carried::radiance);
   out.lambertian = at.diffuse_reflectance().has_value();
   out.normal = at.facing_shading_normal();
+  out.position = hit->point.position;
   for (int i = 0; out.lambertian && i < kProbeRays; ++i) {
     const std::optional<BsdfSample> s = sample_lobes(tracer.rng, at, Lobes::smooth);
     if (!s) continue;
     const std::optional<SurfaceHit> end = tracer.next(at.spawn(s->wi), weight, segments);
-    if (end && end->distance > 0) out.nearness += 1 / (end->distance * kProbeRays);
+    if (end && end->distance > 0) {
+      out.ends[static_cast<std::size_t>(i)] = {1 / end->distance, end->point.ng};
+    }
   }
   return out;
 }
 
-/// The harmonic mean distance [m] of what lies around a pixel's surface; infinite under a free sky.
-float distance_around(const ProbeGrid& grid, int x, int y) {
+/// Do pixels show one surface, or nearly so?
+bool alike(const Probe& a, const Probe& b) {
+  return a.lambertian && b.lambertian && dot(a.normal, b.normal) > kMinCosine;
+}
+
+/// [m] from the surface at a pixel to that at the nearest one beside it; infinite if it ends there.
+float spacing(const ProbeGrid& grid, int x, int y) {
   const Probe& center = grid.probes[grid.index(x, y)];
-  float nearness = 0, count = 0;
+  float nearest = std::numeric_limits<float>::infinity();
+  for (const auto& [i, j] : {std::pair{x - 1, y}, {x + 1, y}, {x, y - 1}, {x, y + 1}}) {
+    if (i < 0 || j < 0 || i >= grid.width || j >= grid.height) continue;
+    const Probe& other = grid.probes[grid.index(i, j)];
+    if (alike(center, other)) {
+      nearest = std::min(nearest, length(other.position - center.position));
+    }
+  }
+  return nearest;
+}
+
+/// Mean over what lies around a pixel's surface. Along surfaces nothing is nearer than `least`
+/// times the pixels' spacing.
+Nearness mean_nearness(const ProbeGrid& grid, int x, int y, float least) {
+  const Probe& center = grid.probes[grid.index(x, y)];
+  const float most = 1 / (least * spacing(grid, x, y));
+  Nearness nearness;
+  float count = 0;
   for (int j = std::max(0, y - kProbePixels); j <= std::min(grid.height - 1, y + kProbePixels);
        ++j) {
     for (int i = std::max(0, x - kProbePixels); i <= std::min(grid.width - 1, x + kProbePixels);
          ++i) {
       const Probe& other = grid.probes[grid.index(i, j)];
-      if (!other.lambertian || !(dot(other.normal, center.normal) > kMinCosine)) continue;
-      nearness += other.nearness;
-      count += 1;
+      if (!alike(center, other)) continue;
+      for (const Probe::End& end : other.ends) nearness.add(end.inverse, end.normal, most);
+      count += kProbeRays;
     }
   }
-  return count / nearness;
+  return nearness * (1 / count);
 }
 
 }  // namespace
 
+void Nearness::add(float inverse, Vec3 normal, float most) {
+  const float even = std::min(inverse, most), excess = inverse - even;
+  even_ += even;
+  squares_ += squares(normal) * excess;
+  products_ += products(normal) * excess;
+}
+
+Nearness Nearness::operator*(float factor) const {
+  Nearness scaled(even_ * factor);
+  scaled.squares_ = squares_ * factor;
+  scaled.products_ = products_ * factor;
+  return scaled;
+}
+
+float Nearness::times(Vec3 d) const {
+  const float distance = length(d);
+  if (!(distance > 0)) return 0;
+  const float across = dot(squares_, squares(d)) + 2 * dot(products_, products(d));
+  return even_ * distance + across / distance;
+}
+
 Rgb GatherSharing::shared(const GatheredGrid& grid, int x, int y, float shrink) const {
   const Gathered& center = grid.at(x, y);
-  const float reach = shrink * reach_[static_cast<std::size_t>(&center - grid.pixels.data())];
-  const float reach2 = reach * reach;
+  const Nearness limit =
+      limits_[static_cast<std::size_t>(&center - grid.pixels.data())] * (1 / shrink);
   // Epanechnikov's kernel of the distance; 0 for pixels that do not know what the center asks.
   const auto weight = [&](int i, int j) {
     if (i < 0 || i >= grid.width || j < 0 || j >= grid.height) return 0.0f;
@@ -91,8 +146,8 @@ Rgb GatherSharing::shared(const GatheredGrid& grid, int x, int y, float shrink) 
       if (center.reflectance[c] > 0 && !(other.reflectance[c] > 0)) return 0.0f;
     }
     if (!(dot(other.normal, center.normal) > kMinCosine)) return 0.0f;
-    const float distance2 = length2(other.position - center.position);
-    return distance2 < reach2 ? 1 - distance2 / reach2 : 0.0f;
+    const float share = limit.times(other.position - center.position);
+    return share < 1 ? 1 - share * share : 0.0f;
   };
   Rgb sum = center.radiance;
   float total = 1;
@@ -116,15 +171,14 @@ GatherSharing learn_sharing(const Scene& scene, const RenderConfig& config) {
     grid.probes[pixel] =
         probe(scene, tracer, {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});
   });
-  std::vector<float> reach(grid.probes.size());
+  const auto share = static_cast<float>(config.eye.share);
+  std::vector<Nearness> limits(grid.probes.size());
   for_each_pixel(grid.width, grid.height, [&](int x, int y) {
     const std::size_t pixel = grid.index(x, y);
     if (!grid.probes[pixel].lambertian) return;
-    const float distance = distance_around(grid, x, y);
-    reach[pixel] = std::min(std::numeric_limits<float>::max(),
-                            static_cast<float>(config.eye.share) * distance);
+    limits[pixel] = mean_nearness(grid, x, y, kMostPixels / share) * (1 / share);
   });
-  return GatherSharing(std::move(reach));
+  return GatherSharing(std::move(limits));
 }
 
 }  // namespace octolux

@@ -3,8 +3,9 @@
 // tracing solution for diffuse interreflection", SIGGRAPH 1988), while each gather knows it by a
 // few rays only. So within a small share of that distance a pixel takes the mean of its neighbours'
 // gathers, as the surface would see them were it white; its own texture, direct light and caustics
-// stay its own. In corners, and where things touch, that is next to nothing, and no light goes
-// around a wall, which is farther from either side of it than the share.
+// stay its own. Towards a wall close by that is next to nothing, and no light goes around it, as it
+// is farther from either side than the share. Along that wall light changes no faster than
+// elsewhere: there, as in a corner along its edge, the few pixels that may share at all do.
 //
 // Neighbours count in pairs, one on either side and each as much as the other, so that a slope of
 // the irradiance cancels, and only its curvature is blurred. How far is known before the first
@@ -44,27 +45,48 @@ struct GatheredGrid {
   }
 };
 
+/// How near things around a point are, by the direction in which it might be moved.
+class Nearness {
+ public:
+  Nearness() = default;
+  /// [1/m], the same in every direction.
+  explicit Nearness(float even) : even_(even) {}
+  /// Adds a thing `inverse` [1/m] away. Moved across its surface, that is how near it is; moved
+  /// along it, no nearer than `most`.
+  void add(float inverse, Vec3 normal, float most);
+  Nearness operator*(float factor) const;
+  /// |d| [m] times the nearness along d.
+  float times(Vec3 d) const;
+
+ private:
+  float even_ = 0;
+  // What is more across surfaces: the sum of excess * normal normal^T.
+  Vec3 squares_{};   // xx, yy, zz
+  Vec3 products_{};  // yz, zx, xy
+};
+
 /// How far each pixel shares. Immutable, so thread-safe.
 class GatherSharing {
  public:
   /// No pixel does.
   GatherSharing() = default;
-  /// Each as far [m] as `reach` has it, row by row.
-  explicit GatherSharing(std::vector<float> reach) : reach_(std::move(reach)) {}
+  /// Each as far [m] as the inverse of this, row by row.
+  explicit GatherSharing(std::vector<Nearness> limits) : limits_(std::move(limits)) {}
 
-  bool any() const { return !reach_.empty(); }
+  bool any() const { return !limits_.empty(); }
   /// If any pixel shares: `radiance` of a Lambertian pixel, averaged over those within `shrink`
   /// times its reach.
   Rgb shared(const GatheredGrid& grid, int x, int y, float shrink) const;
-  /// [m], row by row; empty if no pixel shares.
-  const std::vector<float>& reach() const { return reach_; }
+  /// Row by row; empty if no pixel shares.
+  const std::vector<Nearness>& limits() const { return limits_; }
 
  private:
-  std::vector<float> reach_;
+  std::vector<Nearness> limits_;
 };
 
 /// The share eye.share of the harmonic mean distance of what lies around, cosines weighed, as a few
-/// rays from each pixel and its neighbours find it. The same on any number of threads.
+/// rays from each pixel and its neighbours find it; what is close lies, for moves along its
+/// surface, so far away that the pixels next to it share. The same on any number of threads.
 GatherSharing learn_sharing(const Scene& scene, const RenderConfig& config);
 
 }  // namespace octolux

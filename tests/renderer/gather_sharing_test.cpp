@@ -34,7 +34,7 @@ GatheredGrid wall(int size, const std::function<Rgb(int x, int y)>& radiance) {
 }
 
 GatherSharing as_far_as(float reach, const GatheredGrid& grid) {
-  return GatherSharing(std::vector<float>(grid.pixels.size(), reach));
+  return GatherSharing(std::vector<Nearness>(grid.pixels.size(), Nearness(1 / reach)));
 }
 
 TEST(GatherSharing, ASlopeIsKept) {
@@ -129,20 +129,60 @@ TEST(GatherSharing, ReachesAShareOfTheHarmonicMeanDistance) {
   RenderConfig config;
   config.eye.share = 0.2;
   const double height = 3;
-  const std::vector<float> reach = learn_sharing(*floor_under(height), config).reach();
-  ASSERT_EQ(reach.size(), 32u * 32u);
+  const std::vector<Nearness> limits = learn_sharing(*floor_under(height), config).limits();
+  ASSERT_EQ(limits.size(), 32u * 32u);
   // A ray that leaves by the cosine c goes c^-1 as far as the ceiling is high: the mean of the
   // inverse, c, is 2/3, its variance 1/2 - 4/9. Two rays a pixel; those by the film's edges count
   // in fewer means, those near them in more.
   double nearness = 0;
-  for (const float r : reach) nearness += config.eye.share / r / static_cast<double>(reach.size());
+  for (const Nearness& limit : limits) {
+    nearness += config.eye.share * static_cast<double>(limit.times({0.6f, 0, 0.8f})) /
+                static_cast<double>(limits.size());
+  }
   const double sigma = std::sqrt((0.5 - 4.0 / 9) / (2.0 * 32 * 32)) / height;
   EXPECT_NEAR(nearness, 2.0 / 3 / height, 5 * sigma);
 }
 
 TEST(GatherSharing, ReachesAsFarAsPixelsGoUnderTheSky) {
   const GatherSharing sharing = learn_sharing(*floor_under(0), {});
-  for (const float r : sharing.reach()) EXPECT_EQ(r, kWide);
+  for (const Nearness& limit : sharing.limits()) EXPECT_EQ(limit.times({1, 1, 1}), 0);
+}
+
+TEST(Nearness, IsThatOfAThingAcrossItsSurfaceAndLessAlongIt) {
+  const Vec3 along{0.36f, 0.48f, 0.8f}, across = normalize(cross(along, Vec3{1, 0, 0}));
+  Nearness near;
+  near.add(10, along, 2);
+  EXPECT_FLOAT_EQ(near.times(along), 10);
+  EXPECT_FLOAT_EQ(near.times(across), 2);
+  EXPECT_NEAR(near.times(across + along), std::sqrt(2.0f) * (2 + 8 * 0.5f), 1e-5);
+  EXPECT_FLOAT_EQ((near * 0.5f).times(along * -3), 15);
+  EXPECT_EQ(near.times({}), 0);
+  near.add(1, along, 2);  // farther than that: as near whatever the way
+  EXPECT_FLOAT_EQ(near.times(along), 11);
+  EXPECT_FLOAT_EQ(near.times(across), 3);
+}
+
+/// The floor of a room where it meets the wall at z = -2, the edge level in the picture.
+TEST(GatherSharing, GoesAlongAnEdgeNotAcrossIt) {
+  const auto scene =
+      scene_from("<scene version='3.0.0'>" + sensor_xml("0, 1, 0.5", "0, 0, -2", 40, 32, 32) +
+                 closed_room_xml(0.5) + "</scene>");
+  const auto on_floor = [&](int x, int y) {
+    const Ray ray = scene->camera.ray({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f},
+                                      {0.5f, 0.5f});
+    return ray.origin - ray.direction * (ray.origin.y / ray.direction.y);
+  };
+  int row = 31;
+  while (on_floor(16, row - 1).z > -2) --row;
+  ASSERT_GT(row, 8);
+  ASSERT_LT(row, 28);
+  const std::vector<Nearness> limits = learn_sharing(*scene, {}).limits();
+  const float spacing = length(on_floor(17, row) - on_floor(16, row));
+  for (int x = 4; x < 28; ++x) {
+    const Nearness& limit = limits[static_cast<std::size_t>(row * 32 + x)];
+    EXPECT_LT(limit.times({2 * spacing, 0, 0}), 1) << x;
+    EXPECT_GT(limit.times({0, 0, 2 * spacing}), 1) << x;
+  }
 }
 
 TEST(GatherSharing, IsLeftOutWhereNothingIsGathered) {
