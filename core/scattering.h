@@ -34,6 +34,8 @@ class Scattering {
   /// Geometric normal on wo's side.
   Vec3 facing_normal() const { return wo_ng_ < 0 ? -point_.ng : point_.ng; }
 
+  /// Does `wi` lie on the other side of the surface than wo?
+  bool transmits(Vec3 wi) const { return dot(wi, facing_normal()) < 0; }
   /// Shading normal on the same side of the surface.
   Vec3 facing_shading_normal() const { return wo_ng_ < 0 ? -point_.ns : point_.ns; }
 

@@ -28,9 +28,9 @@ std::optional<BsdfSample> sample_specular(Tracer& tracer, const Scattering& at, 
   return at.sample(u_lobe, u, Lobes::specular);
 }
 
-/// What is gathered where the path first meets a surface, over `segments` segments; nothing if that
-/// is not Lambertian.
-Gathered first_gathered(const Scattering& at, Rgb weight, Rgb radiance, int segments) {
+/// What is gathered where the path meets a surface, over `segments` segments; nothing if that is
+/// not Lambertian.
+Gathered gathered(const Scattering& at, Rgb weight, Rgb radiance, int segments, Way way) {
   const std::optional<Rgb> reflectance = at.diffuse_reflectance();
   if (!reflectance) return {};
   const auto white = [&](int c) {
@@ -41,11 +41,12 @@ Gathered first_gathered(const Scattering& at, Rgb weight, Rgb radiance, int segm
           .reflectance = weight * *reflectance,
           .radiance = {white(0), white(1), white(2)},
           .segments = segments,
+          .way = way,
           .lambertian = true};
 }
 
-/// Follows specular chains along `ray`. At surfaces with smooth lobes add(out, at, weight, bounces,
-/// segments) adds what leaves them.
+/// Follows specular chains along `ray`. At surfaces with smooth lobes add(out, at, weight,
+/// segments, way) adds what leaves them.
 template <class Add>
 EyeSample follow_eye_path(Tracer& tracer, const LightSampler& lights, Ray ray,
                           LightSamples light_samples, Add add) {
@@ -55,6 +56,7 @@ EyeSample follow_eye_path(Tracer& tracer, const LightSampler& lights, Ray ray,
   Rgb beta(1);
   float eta = 1;
   int segments = 0;
+  Way way;
   Arrival arrival;
   for (int bounces = 0; segments < max_segments; ++bounces) {
     const bool visible = bounces > 0 || !scene.hide_emitters;
@@ -68,7 +70,7 @@ EyeSample follow_eye_path(Tracer& tracer, const LightSampler& lights, Ray ray,
     if (visible) out.direct += beta * emitted(lights, *hit, wo, arrival);
     if (bounces == 0) describe_first_hit(out, scene, *hit, ray);
     const Scattering at(hit->point, *hit->bsdf, wo, Carried::radiance);
-    if (hit->bsdf->has(Lobes::smooth)) add(out, at, beta, bounces, segments);
+    if (hit->bsdf->has(Lobes::smooth)) add(out, at, beta, segments, way);
     if (!hit->bsdf->has(Lobes::specular)) break;
     out.direct += beta * glossy_direct(tracer, lights, at, light_samples, segments,
                                        max_segments - segments - 1);
@@ -77,6 +79,7 @@ EyeSample follow_eye_path(Tracer& tracer, const LightSampler& lights, Ray ray,
     beta *= sample->weight;
     eta *= sample->eta;
     if (bounces >= kSafeBounces && !survives(tracer.rng, beta, survival(beta, eta))) break;
+    way.add(at.transmits(sample->wi));
     ray = at.spawn(sample->wi);
     arrival = {receiver(at), sample->pdf_w, 1,
                sample->lobe == Lobes::near_specular ? light_samples : LightSamples()};
@@ -88,13 +91,12 @@ EyeSample follow_eye_path(Tracer& tracer, const LightSampler& lights, Ray ray,
 
 EyeSample trace_eye_path(Tracer& tracer, const LightSampler& lights, const FinalGather& gather,
                          Ray ray, Gathered* apart) {
-  const auto add = [&](EyeSample& out, const Scattering& at, Rgb weight, int bounces,
-                       int segments) {
+  const auto add = [&](EyeSample& out, const Scattering& at, Rgb weight, int segments, Way way) {
     const SplitRadiance leaving = gather.radiance(tracer, at, segments);
     out.direct += weight * leaving.direct;
     out.caustic += weight * leaving.caustic;
-    const bool first = apart && bounces == 0;
-    if (first) *apart = first_gathered(at, weight, leaving.indirect, segments);
+    const bool first = apart && !apart->lambertian;
+    if (first) *apart = gathered(at, weight, leaving.indirect, segments, way);
     if (!first || !apart->lambertian) out.indirect += weight * leaving.indirect;
   };
   return follow_eye_path(tracer, lights, ray, gather.light_samples(), add);
@@ -102,7 +104,7 @@ EyeSample trace_eye_path(Tracer& tracer, const LightSampler& lights, const Final
 
 EyeSample trace_direct_path(Tracer& tracer, const LightSampler& lights, const FinalGather& gather,
                             Ray ray) {
-  const auto add = [&](EyeSample& out, const Scattering& at, Rgb weight, int, int segments) {
+  const auto add = [&](EyeSample& out, const Scattering& at, Rgb weight, int segments, Way) {
     const SplitRadiance leaving = gather.direct(tracer, at, segments);
     out.direct += weight * leaving.direct;
     out.caustic += weight * leaving.caustic;

@@ -8,8 +8,8 @@
 
 namespace octolux {
 
-/// One eye path along `ray`. What it gathers at a Lambertian surface met first is kept `apart`, if
-/// that is asked for.
+/// One eye path along `ray`. What it gathers at the first Lambertian surface it meets is kept
+/// `apart`, if that is asked for.
 EyeSample trace_eye_path(Tracer& tracer, const LightSampler& lights, const FinalGather& gather,
                          Ray ray, Gathered* apart = nullptr);
 

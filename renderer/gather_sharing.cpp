@@ -19,6 +19,7 @@ namespace {
 constexpr int kMostPixels = 3;       // how far apart pixels may be that share
 constexpr float kMinCosine = 0.95f;  // between their normals
 constexpr int kProbeRays = 2;        // from each pixel
+constexpr int kProbeBounces = 8;     // by specular lobes
 constexpr int kProbePixels = 2;      // how far apart pixels may be that are probed together
 
 Vec3 squares(Vec3 v) { return {v.x * v.x, v.y * v.y, v.z * v.z}; }
@@ -31,6 +32,7 @@ struct Probe {
     Vec3 normal;
   };
   Vec3 position, normal;
+  Way way;
   std::array<End, kProbeRays> ends;
   bool lambertian = false;
 };
@@ -47,32 +49,46 @@ struct ProbeGrid {
   }
 };
 
-/// A pixel, seen through its middle.
-Probe probe(const Scene& scene, Tracer& tracer, Vec2 pixel) {
-  Probe out;
-  const Ray ray = scene.camera.ray(pixel, {0.5f, 0.5f});
-  Rgb weight(1);
-  int segments = 0;
-  const std::optional<SurfaceHit> hit = tracer.next(ray, weight, segments);
-  if (!hit) return out;
-  const Scattering at(hit->point, *hit->bsdf, -ray.direction, Carried::radiance);
-  out.lambertian = at.diffuse_reflectance().has_value();
+/// Looks around from `at`.
+void look_around(Tracer& tracer, const Scattering& at, Probe& out) {
+  out.lambertian = true;
+  out.position = at.point().position;
   out.normal = at.facing_shading_normal();
-  out.position = hit->point.position;
-  for (int i = 0; out.lambertian && i < kProbeRays; ++i) {
+  for (Probe::End& seen : out.ends) {
     const std::optional<BsdfSample> s = sample_lobes(tracer.rng, at, Lobes::smooth);
     if (!s) continue;
+    Rgb weight(1);
+    int segments = 0;
     const std::optional<SurfaceHit> end = tracer.next(at.spawn(s->wi), weight, segments);
-    if (end && end->distance > 0) {
-      out.ends[static_cast<std::size_t>(i)] = {1 / end->distance, end->point.ng};
+    if (end && end->distance > 0) seen = {1 / end->distance, end->point.ng};
+  }
+}
+
+/// A pixel, seen through its middle, and in mirrors and glass the way most light goes.
+Probe probe(const Scene& scene, Tracer& tracer, Vec2 pixel) {
+  Probe out;
+  Ray ray = scene.camera.ray(pixel, {0.5f, 0.5f});
+  Rgb weight(1);
+  int segments = 0;
+  for (int bounces = 0; bounces <= kProbeBounces; ++bounces) {
+    const std::optional<SurfaceHit> hit = tracer.next(ray, weight, segments);
+    if (!hit) break;
+    const Scattering at(hit->point, *hit->bsdf, -ray.direction, Carried::radiance);
+    if (at.diffuse_reflectance()) {
+      look_around(tracer, at, out);
+      break;
     }
+    const std::optional<BsdfSample> s = at.sample(0.5f, {0.5f, 0.5f}, Lobes::specular);
+    if (!s) break;
+    out.way.add(at.transmits(s->wi));
+    ray = at.spawn(s->wi);
   }
   return out;
 }
 
 /// Do pixels show one surface, or nearly so?
 bool alike(const Probe& a, const Probe& b) {
-  return a.lambertian && b.lambertian && dot(a.normal, b.normal) > kMinCosine;
+  return a.lambertian && b.lambertian && a.way == b.way && dot(a.normal, b.normal) > kMinCosine;
 }
 
 /// [m] from the surface at a pixel to that at the nearest one beside it; infinite if it ends there.
@@ -134,13 +150,15 @@ float Nearness::times(Vec3 d) const {
 
 Rgb GatherSharing::shared(const GatheredGrid& grid, int x, int y, float shrink) const {
   const Gathered& center = grid.at(x, y);
-  const Nearness limit =
-      limits_[static_cast<std::size_t>(&center - grid.pixels.data())] * (1 / shrink);
+  const SharingLimit& own = limits_[static_cast<std::size_t>(&center - grid.pixels.data())];
+  if (own.way != center.way) return center.radiance;
+  const Nearness limit = own.nearness * (1 / shrink);
   // Epanechnikov's kernel of the distance; 0 for pixels that do not know what the center asks.
   const auto weight = [&](int i, int j) {
     if (i < 0 || i >= grid.width || j < 0 || j >= grid.height) return 0.0f;
     const Gathered& other = grid.at(i, j);
-    if (!other.lambertian || other.segments != center.segments) return 0.0f;
+    if (!other.lambertian || other.way != center.way) return 0.0f;
+    if (other.segments != center.segments) return 0.0f;
     if (!is_finite(other.radiance)) return 0.0f;
     for (int c = 0; c < 3; ++c) {
       if (center.reflectance[c] > 0 && !(other.reflectance[c] > 0)) return 0.0f;
@@ -172,11 +190,12 @@ GatherSharing learn_sharing(const Scene& scene, const RenderConfig& config) {
         probe(scene, tracer, {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});
   });
   const auto share = static_cast<float>(config.eye.share);
-  std::vector<Nearness> limits(grid.probes.size());
+  std::vector<SharingLimit> limits(grid.probes.size());
   for_each_pixel(grid.width, grid.height, [&](int x, int y) {
     const std::size_t pixel = grid.index(x, y);
     if (!grid.probes[pixel].lambertian) return;
-    limits[pixel] = mean_nearness(grid, x, y, kMostPixels / share) * (1 / share);
+    limits[pixel] = {mean_nearness(grid, x, y, kMostPixels / share) * (1 / share),
+                     grid.probes[pixel].way};
   });
   return GatherSharing(std::move(limits));
 }

@@ -5,7 +5,8 @@
 // gathers, as the surface would see them were it white; its own texture, direct light and caustics
 // stay its own. Towards a wall close by that is next to nothing, and no light goes around it, as it
 // is farther from either side than the share. Along that wall light changes no faster than
-// elsewhere: there, as in a corner along its edge, the few pixels that may share at all do.
+// elsewhere: there, as in a corner along its edge, the few pixels that may share at all do. What
+// mirrors and glass show is shared by the places that are seen there.
 //
 // Neighbours count in pairs, one on either side and each as much as the other, so that a slope of
 // the irradiance cancels, and only its curvature is blurred. How far is known before the first
@@ -14,6 +15,7 @@
 // picture with sharing and without.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/image.h"
@@ -22,13 +24,26 @@
 
 namespace octolux {
 
-/// What an eye path gathered on the first surface it met, if that is Lambertian.
+/// How an eye path came where it is: by which specular lobes, told apart by the side they scatter
+/// to. Paths of the same way see neighbouring places.
+class Way {
+ public:
+  /// Goes on to another surface.
+  void add(bool transmitted) { turns_ = 2 * turns_ + (transmitted ? 1 : 0); }
+  bool operator==(const Way&) const = default;
+
+ private:
+  std::uint64_t turns_ = 1;
+};
+
+/// What an eye path gathered on the first Lambertian surface it met.
 struct Gathered {
-  Vec3 position, normal;    // [m], facing shading normal
-  Rgb reflectance;          // times the weight of the path
-  Rgb radiance;             // [W m^-2 sr^-1], were the surface white
-  int segments = 0;         // from the eye
-  bool lambertian = false;  // else nothing of the above is set
+  Vec3 position, normal;  // [m], facing shading normal
+  Rgb reflectance;        // times the weight of the path
+  Rgb radiance;           // [W m^-2 sr^-1], were the surface white
+  int segments = 0;       // from the eye
+  Way way = {};
+  bool lambertian = false;  // else nothing of the above is set: there was none
 
   /// What the eye sees of it, if the surface is lit so.
   Rgb seen(Rgb lit) const { return reflectance * lit; }
@@ -65,23 +80,29 @@ class Nearness {
   Vec3 products_{};  // yz, zx, xy
 };
 
+/// How far a pixel shares what paths of one way gather; those of others share nothing.
+struct SharingLimit {
+  Nearness nearness;  // [1/m] by eye.share: how far is its inverse
+  Way way = {};
+};
+
 /// How far each pixel shares. Immutable, so thread-safe.
 class GatherSharing {
  public:
   /// No pixel does.
   GatherSharing() = default;
-  /// Each as far [m] as the inverse of this, row by row.
-  explicit GatherSharing(std::vector<Nearness> limits) : limits_(std::move(limits)) {}
+  /// One for each pixel, row by row.
+  explicit GatherSharing(std::vector<SharingLimit> limits) : limits_(std::move(limits)) {}
 
   bool any() const { return !limits_.empty(); }
   /// If any pixel shares: `radiance` of a Lambertian pixel, averaged over those within `shrink`
   /// times its reach.
   Rgb shared(const GatheredGrid& grid, int x, int y, float shrink) const;
   /// Row by row; empty if no pixel shares.
-  const std::vector<Nearness>& limits() const { return limits_; }
+  const std::vector<SharingLimit>& limits() const { return limits_; }
 
  private:
-  std::vector<Nearness> limits_;
+  std::vector<SharingLimit> limits_;
 };
 
 /// The share eye.share of the harmonic mean distance of what lies around, cosines weighed, as a few

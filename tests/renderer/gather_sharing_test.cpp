@@ -34,7 +34,7 @@ GatheredGrid wall(int size, const std::function<Rgb(int x, int y)>& radiance) {
 }
 
 GatherSharing as_far_as(float reach, const GatheredGrid& grid) {
-  return GatherSharing(std::vector<Nearness>(grid.pixels.size(), Nearness(1 / reach)));
+  return GatherSharing(std::vector<SharingLimit>(grid.pixels.size(), {Nearness(1 / reach), {}}));
 }
 
 TEST(GatherSharing, ASlopeIsKept) {
@@ -103,6 +103,7 @@ const Other kOthers[] = {
     {"FarBehind", [](Gathered& g) { g.position.z = -0.3f; }, false},
     {"Glossy", [](Gathered& g) { g.lambertian = false; }, false},
     {"BehindAPane", [](Gathered& g) { g.segments = 2; }, false},
+    {"InAMirror", [](Gathered& g) { g.way.add(false); }, false},
     {"BlackInOneChannel",
      [](Gathered& g) {
        g.reflectance = {0.5f, 0, 0.5f};
@@ -129,14 +130,14 @@ TEST(GatherSharing, ReachesAShareOfTheHarmonicMeanDistance) {
   RenderConfig config;
   config.eye.share = 0.2;
   const double height = 3;
-  const std::vector<Nearness> limits = learn_sharing(*floor_under(height), config).limits();
+  const std::vector<SharingLimit> limits = learn_sharing(*floor_under(height), config).limits();
   ASSERT_EQ(limits.size(), 32u * 32u);
   // A ray that leaves by the cosine c goes c^-1 as far as the ceiling is high: the mean of the
   // inverse, c, is 2/3, its variance 1/2 - 4/9. Two rays a pixel; those by the film's edges count
   // in fewer means, those near them in more.
   double nearness = 0;
-  for (const Nearness& limit : limits) {
-    nearness += config.eye.share * static_cast<double>(limit.times({0.6f, 0, 0.8f})) /
+  for (const SharingLimit& limit : limits) {
+    nearness += config.eye.share * static_cast<double>(limit.nearness.times({0.6f, 0, 0.8f})) /
                 static_cast<double>(limits.size());
   }
   const double sigma = std::sqrt((0.5 - 4.0 / 9) / (2.0 * 32 * 32)) / height;
@@ -145,7 +146,7 @@ TEST(GatherSharing, ReachesAShareOfTheHarmonicMeanDistance) {
 
 TEST(GatherSharing, ReachesAsFarAsPixelsGoUnderTheSky) {
   const GatherSharing sharing = learn_sharing(*floor_under(0), {});
-  for (const Nearness& limit : sharing.limits()) EXPECT_EQ(limit.times({1, 1, 1}), 0);
+  for (const SharingLimit& limit : sharing.limits()) EXPECT_EQ(limit.nearness.times({1, 1, 1}), 0);
 }
 
 TEST(Nearness, IsThatOfAThingAcrossItsSurfaceAndLessAlongIt) {
@@ -176,10 +177,10 @@ TEST(GatherSharing, GoesAlongAnEdgeNotAcrossIt) {
   while (on_floor(16, row - 1).z > -2) --row;
   ASSERT_GT(row, 8);
   ASSERT_LT(row, 28);
-  const std::vector<Nearness> limits = learn_sharing(*scene, {}).limits();
+  const std::vector<SharingLimit> limits = learn_sharing(*scene, {}).limits();
   const float spacing = length(on_floor(17, row) - on_floor(16, row));
   for (int x = 4; x < 28; ++x) {
-    const Nearness& limit = limits[static_cast<std::size_t>(row * 32 + x)];
+    const Nearness& limit = limits[static_cast<std::size_t>(row * 32 + x)].nearness;
     EXPECT_LT(limit.times({2 * spacing, 0, 0}), 1) << x;
     EXPECT_GT(limit.times({0, 0, 2 * spacing}), 1) << x;
   }
@@ -219,15 +220,15 @@ double mean_variance(const std::vector<Film>& films) {
   return sum / static_cast<double>(pixels.size());
 }
 
-TEST(GatherSharing, LeavesThePictureAndTakesItsNoise) {
-  const auto scene = shipped_scene("cornell/cornell.xml");
-  resize_film(*scene, kSize, kSize);
+/// Sharing leaves the mean of every block, and at most `most` of the noise.
+void expect_less_noise(Scene& scene, double most) {
+  resize_film(scene, kSize, kSize);
   RenderConfig config = photon_config(4, 20'000);
   config.eye.direct_samples = 0;  // not as noise asks: direct light is the same with and without
-  const std::vector<Film> shared = render_seeds(*scene, config, 8);
+  const std::vector<Film> shared = render_seeds(scene, config, 8);
   config.eye.share = 0;
-  const std::vector<Film> own = render_seeds(*scene, config, 8);
-  EXPECT_LT(mean_variance(shared), 0.6 * mean_variance(own));
+  const std::vector<Film> own = render_seeds(scene, config, 8);
+  EXPECT_LT(mean_variance(shared), most * mean_variance(own));
   for (int block = 0; block < kSize * kSize / (kBlock * kBlock); ++block) {
     Running ratio;  // of the same photons
     for (std::size_t i = 0; i < own.size(); ++i) {
@@ -236,6 +237,28 @@ TEST(GatherSharing, LeavesThePictureAndTakesItsNoise) {
     EXPECT_NEAR(ratio.mean(), 1, 0.002 + 4 * ratio.standard_error()) << block;
     EXPECT_LT(ratio.standard_error(), 0.002) << block;
   }
+}
+
+TEST(GatherSharing, LeavesThePictureAndTakesItsNoise) {
+  expect_less_noise(*shipped_scene("cornell/cornell.xml"), 0.5);
+}
+
+/// A room, of which the eye sees nothing but its image in a mirror.
+TEST(GatherSharingSlow, DoesSoInAMirror) {
+  const auto scene =
+      scene_from("<scene version='3.0.0'>" + sensor_xml("0, 2, 0", "0, 2, 1", 60, kSize, kSize) +
+                 closed_room_xml(0.6) + R"(
+    <shape type='rectangle'><transform name='to_world'><scale value='1.8'/><rotate y='1' angle='180'/>
+      <translate y='2' z='1.9'/></transform>
+      <bsdf type='conductor'><string name='material' value='none'/></bsdf></shape>
+    <shape type='rectangle'><transform name='to_world'><scale value='0.7'/>
+      <rotate x='1' angle='90'/><translate y='3.9'/></transform><emitter type='area'/></shape>
+    </scene>)");
+  Way mirrored;
+  mirrored.add(false);
+  const std::vector<SharingLimit> limits = learn_sharing(*scene, {}).limits();
+  for (const SharingLimit& limit : limits) ASSERT_EQ(limit.way, mirrored);
+  expect_less_noise(*scene, 0.5);
 }
 
 }  // namespace
