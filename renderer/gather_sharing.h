@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/constants.h"
 #include "core/image.h"
 #include "renderer/config.h"
 #include "renderer/scene.h"
@@ -82,7 +83,7 @@ class Nearness {
 
 /// How far a pixel shares what paths of one way gather; those of others share nothing.
 struct SharingLimit {
-  Nearness nearness;  // [1/m] by eye.share: how far is its inverse
+  Nearness nearness{kInfinity};  // by eye.share: how far is its inverse, unless told nothing
   Way way = {};
 };
 

@@ -65,6 +65,12 @@ TEST(GatherSharing, NoiseIsThatOfTheMean) {
   EXPECT_NEAR(means.variance() * 12 * 49, 1, 4 * std::sqrt(2.0 / 99));
 }
 
+TEST(GatherSharing, NothingIsSharedWherePixelsMiddlesSawNothingToShare) {
+  const GatheredGrid grid = wall(7, [](int x, int y) { return Rgb(static_cast<float>(x * y)); });
+  const GatherSharing sharing(std::vector<SharingLimit>(grid.pixels.size()));
+  for (int i = 0; i < 7; ++i) EXPECT_EQ(sharing.shared(grid, i, 4, 0.9f).r, 4.0f * i);
+}
+
 struct Other {
   const char* name;
   std::function<void(Gathered&)> make;  // of a pixel next to the middle
