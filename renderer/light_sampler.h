@@ -5,6 +5,9 @@
 // light at all is legal: then nothing is ever chosen. A mesh of many triangles stands in the tree
 // part by part (core/light_parts.h).
 //
+// Narrow lights, suns, are chosen apart from all others, with samples of their own: whether one is
+// seen changes at the edge of a shadow, which neither power nor learning foresees.
+//
 // Where a Receiver knows what was learned (learned_lights.h), most choices follow that: first a
 // group of lights, which is an infinite one or one of the tree's, then within it as ever.
 // Immutable, so thread-safe.
