@@ -91,9 +91,9 @@ TEST_P(ConvergenceSlow, NoFloorOverFourOctavesPastSixtyFourPasses) {
   // Knaus & Zwicker: variance and squared bias both fall as k^(-2/3) for alpha = 2/3. Seen
   // directly, the kernels without feelers are wrong by O(1) within h of every wall, and the area
   // of that band falls as h, k^(-1/6): slower, but no floor. What gather rays read of the cone is
-  // wrong there, too, by the share of them that end in the band: squared k^(-1/3), and most
-  // of its error, three times OctoBox's at the end. A floor would flatten the line over the
-  // last octave.
+  // wrong there, too, by the share of them that end in the band: squared k^(-1/3), and most of its
+  // error, which at the end is three times OctoBox's, and four times if no pixels share. A floor
+  // would flatten the line over the last octave.
   EXPECT_LT(fitted, mode.slope);
   EXPECT_LT(error[4] / error[3], std::pow(2.0, 0.6 * mode.slope));
 }
