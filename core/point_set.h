@@ -107,6 +107,12 @@ class PixelSequence {
     return {hash64(key_ ^ (at | static_cast<std::uint64_t>(use))),
             number_ * static_cast<std::uint32_t>(n)};
   }
+  /// For what path `i` of the `n` that a sample was split into meets.
+  PixelSequence part(int i, int n) const {
+    PixelSequence part = *this;
+    part.number_ = number_ * static_cast<std::uint32_t>(n) + static_cast<std::uint32_t>(i);
+    return part;
+  }
 
  private:
   std::uint64_t key_ = 0;

@@ -7,26 +7,11 @@ namespace octolux {
 
 namespace {
 
-/// Direct light by the non-delta specular lobes of `at`: L S* E found from the light's side.
-Rgb glossy_direct(Tracer& tracer, const LightSampler& lights, const Scattering& at,
-                  LightSamples samples, int segments, int max_crossings) {
-  if (!at.bsdf().has(Lobes::near_specular)) return Rgb(0);
-  const DirectStrategy strategy{Lobes::near_specular, Lobes::specular, samples, 1, max_crossings};
-  const auto points = [&](PixelUse use, int n) { return tracer.sequence.points(use, segments, n); };
-  return sample_lights(
-      tracer, lights, at, receiver(at), strategy,
-      {points(PixelUse::glossy_lights, samples.others), points(PixelUse::glossy_light_choice, 1),
-       points(PixelUse::glossy_narrow_lights, samples.narrow)});
-}
-
-/// Draws among the specular lobes of `at`. The choices of a pixel, reflected or refracted above
-/// all, follow its own sequence, so that it sees as much of each as it should.
-std::optional<BsdfSample> sample_specular(Tracer& tracer, const Scattering& at, int segments) {
-  const PixelSequence& sequence = tracer.sequence;
-  const float u_lobe = sequence.points(PixelUse::specular_lobe, segments, 1)[0].x;
-  const Vec2 u = sequence.points(PixelUse::specular_direction, segments, 1)[0];
-  return at.sample(u_lobe, u, Lobes::specular);
-}
+/// Where a surface shows nothing but gloss, an eye path goes on as so many paths, which share its
+/// gather rays and light samples. In a room with a metal floor that has 0.68 of the noise in 1.16
+/// of the time; two paths 0.77 and 1.07, eight 0.87 and 1.28. Of varnish over something else, two
+/// or four were worth no more than one.
+constexpr int kGlossyPaths = 4;
 
 /// What is gathered where the path meets a surface, over `segments` segments; nothing if that is
 /// not Lambertian.
@@ -45,71 +30,153 @@ Gathered gathered(const Scattering& at, Rgb weight, Rgb radiance, int segments, 
           .lambertian = true};
 }
 
-/// Follows specular chains along `ray`. At surfaces with smooth lobes add(out, at, weight,
-/// segments, way) adds what leaves them.
+/// A path on its way from the eye.
+struct EyePath {
+  Ray ray;
+  Rgb beta = Rgb(1);
+  float eta = 1;  // index ratio crossed so far
+  int bounces = 0, segments = 0;
+  int paths = 1;  // that its sample goes on as
+  Way way = {};
+  Arrival arrival = {};
+};
+
+/// Follows specular chains. At surfaces with smooth lobes add(at, path) adds what leaves them.
 template <class Add>
-EyeSample follow_eye_path(Tracer& tracer, const LightSampler& lights, Ray ray,
-                          LightSamples light_samples, Add add) {
-  const Scene& scene = tracer.scene();
-  const int max_segments = scene.max_depth < 0 ? 1 << 20 : scene.max_depth;
-  EyeSample out;
-  Rgb beta(1);
-  float eta = 1;
-  int segments = 0;
-  Way way;
-  Arrival arrival;
-  for (int bounces = 0; segments < max_segments; ++bounces) {
-    const bool visible = bounces > 0 || !scene.hide_emitters;
-    const std::optional<SurfaceHit> hit = tracer.next(ray, beta, segments);
-    if (segments > max_segments) break;
-    if (!hit) {
-      if (visible) out.direct += beta * environment(scene, lights, ray.direction, arrival);
-      break;
+class EyePathFollower {
+ public:
+  EyePathFollower(Tracer& tracer, const LightSampler& lights, const FinalGather& gather, Add add,
+                  EyeSample& out)
+      : tracer_(tracer),
+        scene_(tracer.scene()),
+        lights_(lights),
+        gather_(gather),
+        add_(add),
+        out_(out),
+        max_segments_(scene_.max_depth < 0 ? 1 << 20 : scene_.max_depth) {}
+
+  void follow(EyePath path) {
+    while (path.segments < max_segments_) {
+      const bool visible = path.bounces > 0 || !scene_.hide_emitters;
+      const std::optional<SurfaceHit> hit = tracer_.next(path.ray, path.beta, path.segments);
+      if (path.segments > max_segments_) return;
+      const Vec3 wo = -path.ray.direction;
+      if (!hit) {
+        if (visible) out_.direct += path.beta * environment(scene_, lights_, -wo, path.arrival);
+        return;
+      }
+      if (visible) out_.direct += path.beta * emitted(lights_, *hit, wo, path.arrival);
+      if (path.bounces == 0) describe_first_hit(out_, scene_, *hit, path.ray);
+      const Scattering at(hit->point, *hit->bsdf, wo, Carried::radiance);
+      if (at.bsdf().has(Lobes::smooth)) add_(at, path);
+      if (!at.bsdf().has(Lobes::specular)) return;
+      const int n = parts(path, at.bsdf());
+      out_.direct += path.beta * glossy_direct(path, at, n);
+      if (n > 1) return follow_parts(path, at, n);
+      if (!scatter(path, at, 0, 1)) return;
     }
-    const Vec3 wo = -ray.direction;
-    if (visible) out.direct += beta * emitted(lights, *hit, wo, arrival);
-    if (bounces == 0) describe_first_hit(out, scene, *hit, ray);
-    const Scattering at(hit->point, *hit->bsdf, wo, Carried::radiance);
-    if (hit->bsdf->has(Lobes::smooth)) add(out, at, beta, segments, way);
-    if (!hit->bsdf->has(Lobes::specular)) break;
-    out.direct += beta * glossy_direct(tracer, lights, at, light_samples, segments,
-                                       max_segments - segments - 1);
-    const std::optional<BsdfSample> sample = sample_specular(tracer, at, segments);
-    if (!sample) break;
-    beta *= sample->weight;
-    eta *= sample->eta;
-    if (bounces >= kSafeBounces && !survives(tracer.rng, beta, survival(beta, eta))) break;
-    way.add(at.transmits(sample->wi));
-    ray = at.spawn(sample->wi);
-    arrival = {receiver(at), sample->pdf_w, 1,
-               sample->lobe == Lobes::near_specular ? light_samples : LightSamples()};
   }
-  return out;
-}
+
+ private:
+  static int parts(const EyePath& path, const Bsdf& bsdf) {
+    const bool gloss_alone = bsdf.has(Lobes::near_specular) && !bsdf.has(Lobes::smooth);
+    return gloss_alone && path.paths == 1 ? kGlossyPaths : 1;
+  }
+
+  /// Part i of n, each with points of its own in the pixel's sequence.
+  void follow_parts(const EyePath& path, const Scattering& at, int n) {
+    const PixelSequence whole = tracer_.sequence;
+    for (int i = 0; i < n; ++i) {
+      EyePath part = path;
+      if (!scatter(part, at, i, n)) continue;
+      tracer_.sequence = whole.part(i, n);
+      follow(part);
+      tracer_.sequence = whole;
+    }
+  }
+
+  /// Sends `path` on, as part i of n. False if it ends.
+  bool scatter(EyePath& path, const Scattering& at, int i, int n) {
+    const std::optional<BsdfSample> sample = sample_specular(path, at, i, n);
+    if (!sample) return false;
+    path.beta *= sample->weight / static_cast<float>(n);
+    path.eta *= sample->eta;
+    if (path.bounces >= kSafeBounces &&
+        !survives(tracer_.rng, path.beta, survival(path.beta, path.eta))) {
+      return false;
+    }
+    ++path.bounces;
+    path.way.add(at.transmits(sample->wi));
+    path.ray = at.spawn(sample->wi);
+    const bool glossy = sample->lobe == Lobes::near_specular;
+    path.arrival = {receiver(at), sample->pdf_w, n,
+                    glossy ? gather_.light_samples(path.paths) : LightSamples()};
+    path.paths *= n;
+    return true;
+  }
+
+  /// Draws among the specular lobes of `at`. The choices of a pixel, reflected or refracted above
+  /// all, follow its own sequence, so that it sees as much of each as it should.
+  std::optional<BsdfSample> sample_specular(const EyePath& path, const Scattering& at, int i,
+                                            int n) const {
+    const PointSet lobes = points(PixelUse::specular_lobe, path, n);
+    const PointSet directions = points(PixelUse::specular_direction, path, n);
+    return at.sample(lobes[i].x, directions[i], Lobes::specular);
+  }
+
+  /// Direct light by the non-delta specular lobes of `at`: L S* E found from the light's side. The
+  /// path goes on as n.
+  Rgb glossy_direct(const EyePath& path, const Scattering& at, int n) {
+    if (!at.bsdf().has(Lobes::near_specular)) return Rgb(0);
+    const LightSamples samples = gather_.light_samples(path.paths);
+    const DirectStrategy strategy{Lobes::near_specular, Lobes::specular, samples, n,
+                                  max_segments_ - path.segments - 1};
+    return sample_lights(tracer_, lights_, at, receiver(at), strategy,
+                         {points(PixelUse::glossy_lights, path, samples.others),
+                          points(PixelUse::glossy_light_choice, path, 1),
+                          points(PixelUse::glossy_narrow_lights, path, samples.narrow)});
+  }
+
+  PointSet points(PixelUse use, const EyePath& path, int n) const {
+    return tracer_.sequence.points(use, path.segments, n);
+  }
+
+  Tracer& tracer_;
+  const Scene& scene_;
+  const LightSampler& lights_;
+  const FinalGather& gather_;
+  Add add_;
+  EyeSample& out_;
+  int max_segments_;
+};
 
 }  // namespace
 
 EyeSample trace_eye_path(Tracer& tracer, const LightSampler& lights, const FinalGather& gather,
                          Ray ray, Gathered* apart) {
-  const auto add = [&](EyeSample& out, const Scattering& at, Rgb weight, int segments, Way way) {
-    const SplitRadiance leaving = gather.radiance(tracer, at, segments);
-    out.direct += weight * leaving.direct;
-    out.caustic += weight * leaving.caustic;
+  EyeSample out;
+  const auto add = [&](const Scattering& at, const EyePath& path) {
+    const SplitRadiance leaving = gather.radiance(tracer, at, path.segments, path.paths);
+    out.direct += path.beta * leaving.direct;
+    out.caustic += path.beta * leaving.caustic;
     const bool first = apart && !apart->lambertian;
-    if (first) *apart = gathered(at, weight, leaving.indirect, segments, way);
-    if (!first || !apart->lambertian) out.indirect += weight * leaving.indirect;
+    if (first) *apart = gathered(at, path.beta, leaving.indirect, path.segments, path.way);
+    if (!first || !apart->lambertian) out.indirect += path.beta * leaving.indirect;
   };
-  return follow_eye_path(tracer, lights, ray, gather.light_samples(), add);
+  EyePathFollower(tracer, lights, gather, add, out).follow({ray});
+  return out;
 }
 
 EyeSample trace_direct_path(Tracer& tracer, const LightSampler& lights, const FinalGather& gather,
                             Ray ray) {
-  const auto add = [&](EyeSample& out, const Scattering& at, Rgb weight, int segments, Way) {
-    const SplitRadiance leaving = gather.direct(tracer, at, segments);
-    out.direct += weight * leaving.direct;
-    out.caustic += weight * leaving.caustic;
+  EyeSample out;
+  const auto add = [&](const Scattering& at, const EyePath& path) {
+    const SplitRadiance leaving = gather.direct(tracer, at, path.segments, path.paths);
+    out.direct += path.beta * leaving.direct;
+    out.caustic += path.beta * leaving.caustic;
   };
-  return follow_eye_path(tracer, lights, ray, gather.light_samples(), add);
+  EyePathFollower(tracer, lights, gather, add, out).follow({ray});
+  return out;
 }
 
 }  // namespace octolux

@@ -41,13 +41,14 @@ class FinalGather {
   FinalGather(const Scene& scene, const LightSampler& lights, const PhotonMaps& maps,
               const Learned& learned, const RenderConfig& config);
 
-  /// Smooth-lobe radiance leaving `at`, which the eye path reached over `segments` segments.
-  SplitRadiance radiance(Tracer& tracer, const Scattering& at, int segments) const;
+  /// Smooth-lobe radiance leaving `at`, which the eye path reached over `segments` segments, one of
+  /// `paths` that its sample was split into.
+  SplitRadiance radiance(Tracer& tracer, const Scattering& at, int segments, int paths = 1) const;
   /// Of it direct light and caustics alone, without a gather: of the same mean.
-  SplitRadiance direct(Tracer& tracer, const Scattering& at, int segments) const;
+  SplitRadiance direct(Tracer& tracer, const Scattering& at, int segments, int paths = 1) const;
 
-  /// Light samples at a point; none if nothing emits.
-  LightSamples light_samples() const { return light_samples_; }
+  /// Light samples at a point, for each of so many paths; none if nothing emits.
+  LightSamples light_samples(int paths = 1) const;
 
  private:
   struct Level {
@@ -55,6 +56,7 @@ class FinalGather {
     int rays;             // gather rays to send
     float read_distance;  // [m] shorter gather rays go on; of the first level not known yet
     int retraces;         // how often this path has gone on
+    LightSamples light_samples;
   };
   SplitRadiance radiance(Tracer& tracer, const Scattering& at, const Level& level) const;
   SplitRadiance direct(Tracer& tracer, const Scattering& at, const Level& level,
@@ -62,7 +64,7 @@ class FinalGather {
   Rgb gathered(Tracer& tracer, const Scattering& at, const Level& level, const Receiver& lit,
                const GatherPoint& point) const;
   Receiver learned_receiver(const Scattering& at) const;
-  LightSamples light_samples(const Level& level) const;
+  Level first_level(int segments, int paths) const;
   Rgb follow(Tracer& tracer, Ray ray, const Level& level, Arrival arrival) const;
   Rgb scattered(Tracer& tracer, const Scattering& at, const Level& here, float distance) const;
   Rgb narrow_direct(Tracer& tracer, const Scattering& at, const Level& here) const;

@@ -48,6 +48,23 @@ TEST(PixelSequence, EveryAlignedBlockHasOnePointInEachElementaryInterval) {
   }
 }
 
+TEST(PixelSequence, PartsShareOutTheSequence) {
+  constexpr int kParts = 4, kNumbers = 8, kPoints = 2;
+  const PointSet all =
+      PixelSequence(1, 3, 0).points(PixelUse::gather, 2, kParts * kNumbers * kPoints);
+  for (int number = 0; number < kNumbers; ++number) {
+    const PixelSequence whole(1, 3, static_cast<std::uint64_t>(number));
+    for (int part = 0; part < kParts; ++part) {
+      const PointSet points = whole.part(part, kParts).points(PixelUse::gather, 2, kPoints);
+      for (int i = 0; i < kPoints; ++i) {
+        const Vec2 expected = all[(number * kParts + part) * kPoints + i];
+        EXPECT_EQ(points[i].x, expected.x);
+        EXPECT_EQ(points[i].y, expected.y);
+      }
+    }
+  }
+}
+
 TEST(PixelSequence, EachPointIsUniform) {
   for (const int i : {0, 1, 5, 1000}) {
     std::vector<double> counts(kSide * kSide);

@@ -73,5 +73,29 @@ TEST(Agreement, LampsInAGlossyPlate) {
   EXPECT_GT(z_test_p((photon.mean() - path.mean()) / sigma), kAlpha);
 }
 
+/// Varnished walls and a metal floor: what either shows is followed by chance or on several paths,
+/// and must weigh as much as if one path had followed it always.
+TEST(Agreement, RoomOfMetalAndVarnish) {
+  const auto scene = scene_from(
+      "<scene version='3.0.0'>" + sensor_xml("0, 1.5, -1.9", "0, 1, 0", 80, 12, 12) +
+      "<bsdf type='twosided' id='varnish'><bsdf type='roughplastic'><float name='alpha' "
+      "value='0.1'/><rgb name='diffuse_reflectance' value='0.4'/></bsdf></bsdf>"
+      "<bsdf type='roughconductor' id='metal'><float name='alpha' value='0.15'/></bsdf>"
+      "<shape type='cube'><transform name='to_world'><scale value='2'/><translate y='2'/>"
+      "</transform><ref id='varnish'/></shape>"
+      "<shape type='rectangle'><transform name='to_world'><scale value='1.9'/><rotate x='1' "
+      "angle='-90'/><translate y='0.05'/></transform><ref id='metal'/></shape>"
+      "<shape type='rectangle'><transform name='to_world'><scale value='0.7'/><rotate x='1' "
+      "angle='90'/><translate y='3.9'/></transform><emitter type='area'><rgb name='radiance' "
+      "value='1'/></emitter></shape></scene>");
+  const Running path = pass_means(*scene, path_config(4096));
+  const Running photon = pass_means(*scene, photon_config(48, 5'000));
+  const double ratio = photon.mean() / path.mean();
+  const double sigma = std::sqrt(path.variance_of_mean() + photon.variance_of_mean()) / path.mean();
+  std::printf("  photon / path %.4f +- %.4f\n", ratio, sigma);
+  EXPECT_LT(sigma, 0.002);
+  EXPECT_NEAR(ratio, 1, 0.003 + 3 * sigma);  // the map's own bias, and noise
+}
+
 }  // namespace
 }  // namespace octolux::test
