@@ -79,6 +79,13 @@ class Bsdf {
     return std::nullopt;
   }
 
+  /// f [sr^-1] of the diffuse lobe under a coat, which is a product of what wo and what wi has;
+  /// empty if there is none on wo's side. Lets pixels share what arrives under their coat.
+  virtual std::optional<Rgb> coated_base(const SurfacePoint& /*at*/, Vec3 /*wo*/,
+                                         Vec3 /*wi*/) const {
+    return std::nullopt;
+  }
+
   Lobes lobes() const { return lobes_; }
   bool has(Lobes kinds) const { return any(lobes_ & kinds); }
   /// Do smooth lobes scatter light through the surface (rough glass)?

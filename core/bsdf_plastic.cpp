@@ -56,6 +56,11 @@ class Plastic final : public Bsdf {
     return config_.specular_reflectance * external + base(at) * in_out;
   }
 
+  std::optional<Rgb> coated_base(const SurfacePoint& at, Vec3 wo, Vec3 wi) const override {
+    if (!has(Lobes::smooth)) return std::nullopt;
+    return f(at, wo, wi, Lobes::smooth, Carried::radiance);
+  }
+
  private:
   bool base_asked(Lobes asked) const { return any(asked & lobes() & Lobes::smooth); }
 

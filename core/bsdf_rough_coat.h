@@ -3,7 +3,8 @@
 //
 // Model supplies the physics:
 //   Rgb coat(at, float cos_m)                Fresnel reflectance of the coat's microfacets
-//   Rgb base(at, float cos_o, float cos_i)   f of the base under the coat [sr^-1]
+//   Rgb base(at, float cos_o, float cos_i)   f of the base under the coat [sr^-1]: a product
+//                                            of functions of either cosine
 //   float coat_share(at, float cos_o)        probability of choosing the coat when both are asked
 //   Rgb albedo(at)
 #pragma once
@@ -61,6 +62,11 @@ class RoughCoat final : public Bsdf {
   }
 
   Rgb albedo(const SurfacePoint& at) const override { return model_.albedo(at); }
+
+  std::optional<Rgb> coated_base(const SurfacePoint& at, Vec3 wo, Vec3 wi) const override {
+    if (!any(base_kind_)) return std::nullopt;
+    return wo.z > 0 && wi.z > 0 ? model_.base(at, wo.z, wi.z) : Rgb(0);
+  }
 
  private:
   float coat_probability(const SurfacePoint& at, float cos_o, Lobes asked) const {

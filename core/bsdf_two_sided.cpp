@@ -43,6 +43,11 @@ class TwoSided final : public Bsdf {
     return wo.z > 0 ? front_.lambertian(at, wo) : back_.lambertian(at, flip(wo));
   }
 
+  std::optional<Rgb> coated_base(const SurfacePoint& at, Vec3 wo, Vec3 wi) const override {
+    if (wo.z > 0) return front_.coated_base(at, wo, wi);
+    return back_.coated_base(at, flip(wo), flip(wi));
+  }
+
  private:
   const Bsdf& front_;
   const Bsdf& back_;

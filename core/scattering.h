@@ -86,6 +86,24 @@ class Scattering {
     return wo_ng_ * wo_local_.z > 0 ? bsdf_.lambertian(point_, wo_local_) : std::nullopt;
   }
 
+  /// Reflectance of the diffuse lobe under a coat, for light from straight above; empty if there is
+  /// none.
+  std::optional<Rgb> coated_reflectance() const {
+    if (!(wo_ng_ * wo_local_.z > 0)) return std::nullopt;
+    const std::optional<Rgb> f = bsdf_.coated_base(point_, wo_local_, {0, 0, wo_local_.z});
+    return f ? std::optional(*f * kPi) : std::nullopt;
+  }
+  /// The share of that lobe in what smooth lobes scatter from wi.
+  Rgb coated_share(Vec3 wi) const {
+    const Vec3 local = frame_.to_local(wi);
+    const std::optional<Rgb> base = bsdf_.coated_base(point_, wo_local_, local);
+    const Rgb all = bsdf_.f(point_, wo_local_, local, Lobes::smooth, carried_);
+    const auto share = [&](int c) {
+      return base && all[c] > 0 ? std::min(1.0f, (*base)[c] / all[c]) : 0.0f;
+    };
+    return {share(0), share(1), share(2)};
+  }
+
   /// A ray leaving this point towards `direction`.
   Ray spawn(Vec3 direction) const {
     return {offset_origin(point_.position, point_.ng, point_.error, direction), direction};

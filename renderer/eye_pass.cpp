@@ -14,9 +14,11 @@ namespace {
 constexpr int kGlossyPaths = 4;
 
 /// What is gathered where the path meets a surface, over `segments` segments; nothing if that is
-/// not Lambertian.
+/// not diffuse.
 Gathered gathered(const Scattering& at, Rgb weight, Rgb radiance, int segments, Way way) {
-  const std::optional<Rgb> reflectance = at.diffuse_reflectance();
+  std::optional<Rgb> reflectance = at.diffuse_reflectance();
+  const bool coated = !reflectance;
+  if (coated) reflectance = at.coated_reflectance();
   if (!reflectance) return {};
   const auto white = [&](int c) {
     return (*reflectance)[c] > 0 ? radiance[c] / (*reflectance)[c] : 0.0f;
@@ -27,7 +29,8 @@ Gathered gathered(const Scattering& at, Rgb weight, Rgb radiance, int segments, 
           .radiance = {white(0), white(1), white(2)},
           .segments = segments,
           .way = way,
-          .lambertian = true};
+          .coated = coated ? &at.bsdf() : nullptr,
+          .diffuse = true};
 }
 
 /// A path on its way from the eye.
@@ -159,9 +162,10 @@ EyeSample trace_eye_path(Tracer& tracer, const LightSampler& lights, const Final
     const SplitRadiance leaving = gather.radiance(tracer, at, path.segments, path.paths);
     out.direct += path.beta * leaving.direct;
     out.caustic += path.beta * leaving.caustic;
-    const bool first = apart && !apart->lambertian;
-    if (first) *apart = gathered(at, path.beta, leaving.indirect, path.segments, path.way);
-    if (!first || !apart->lambertian) out.indirect += path.beta * leaving.indirect;
+    out.indirect += path.beta * leaving.indirect;
+    const bool first = apart && !apart->diffuse;
+    if (first) *apart = gathered(at, path.beta, leaving.base, path.segments, path.way);
+    if (!first || !apart->diffuse) out.indirect += path.beta * leaving.base;
   };
   EyePathFollower(tracer, lights, gather, add, out).follow({ray});
   return out;

@@ -85,7 +85,7 @@ FinalGather::Level FinalGather::first_level(int segments, int paths) const {
 SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at, int segments,
                                     int paths) const {
   if (!config_.eye.gather) {
-    return {Rgb(0), Rgb(0), maps_.global.radiance(gather_point(tracer, at, segments))};
+    return {Rgb(0), Rgb(0), Rgb(0), maps_.global.radiance(gather_point(tracer, at, segments))};
   }
   return radiance(tracer, at, first_level(segments, paths));
 }
@@ -103,7 +103,7 @@ SplitRadiance FinalGather::radiance(Tracer& tracer, const Scattering& at,
   const Receiver lit = learned_receiver(at);
   const GatherPoint point = gather_point(tracer, at, level.segments);
   SplitRadiance out = direct(tracer, at, level, lit, point);
-  out.indirect = gathered(tracer, at, level, lit, point);
+  gather(tracer, at, level, lit, point, out);
   return out;
 }
 
@@ -128,10 +128,10 @@ SplitRadiance FinalGather::direct(Tracer& tracer, const Scattering& at, const Le
   return out;
 }
 
-Rgb FinalGather::gathered(Tracer& tracer, const Scattering& at, const Level& level,
-                          const Receiver& lit, const GatherPoint& point) const {
-  Rgb out(0);
+void FinalGather::gather(Tracer& tracer, const Scattering& at, const Level& level,
+                         const Receiver& lit, const GatherPoint& point, SplitRadiance& out) const {
   const bool first = level.retraces == 0;
+  const bool coated = first && at.coated_reflectance();
   Level next = level;
   if (first) next.read_distance = read_distance(point);
   const LobeMixture guide =
@@ -145,9 +145,15 @@ Rgb FinalGather::gathered(Tracer& tracer, const Scattering& at, const Level& lev
     const float chance = std::min(1.0f, kRetraceChance * max_component(weight));
     if (level.retraces > 0 && !survives(tracer.rng, weight, chance)) continue;
     const Arrival arrival{lit, chosen->bsdf_pdf_w, level.rays, level.light_samples};
-    out += weight * follow(tracer, at.spawn(chosen->wi), next, arrival);
+    const Rgb scattered = weight * follow(tracer, at.spawn(chosen->wi), next, arrival);
+    if (coated) {
+      const Rgb share = at.coated_share(chosen->wi);
+      out.base += scattered * share;
+      out.indirect += scattered * (Rgb(1) - share);
+    } else {
+      out.base += scattered;
+    }
   }
-  return out;
 }
 
 /// Radiance leaving `at`, where a gather ray of this length [m] ended: read from the map, or

@@ -32,7 +32,8 @@ struct Learned {
 /// Radiance split by path class.
 struct SplitRadiance {
   Rgb direct, caustic, indirect;
-  Rgb total() const { return direct + caustic + indirect; }
+  Rgb base;  // of indirect light, what a Lambertian surface scatters, or the base under a coat
+  Rgb total() const { return direct + caustic + indirect + base; }
 };
 
 /// Thread-safe; refers to what it is given.
@@ -61,8 +62,8 @@ class FinalGather {
   SplitRadiance radiance(Tracer& tracer, const Scattering& at, const Level& level) const;
   SplitRadiance direct(Tracer& tracer, const Scattering& at, const Level& level,
                        const Receiver& lit, const GatherPoint& point) const;
-  Rgb gathered(Tracer& tracer, const Scattering& at, const Level& level, const Receiver& lit,
-               const GatherPoint& point) const;
+  void gather(Tracer& tracer, const Scattering& at, const Level& level, const Receiver& lit,
+              const GatherPoint& point, SplitRadiance& out) const;
   Receiver learned_receiver(const Scattering& at) const;
   Level first_level(int segments, int paths) const;
   Rgb follow(Tracer& tracer, Ray ray, const Level& level, Arrival arrival) const;

@@ -34,7 +34,7 @@ struct Probe {
   Vec3 position, normal;
   Way way;
   std::array<End, kProbeRays> ends;
-  bool lambertian = false;
+  bool diffuse = false;
 };
 
 /// One of each pixel.
@@ -51,7 +51,7 @@ struct ProbeGrid {
 
 /// Looks around from `at`.
 void look_around(Tracer& tracer, const Scattering& at, Probe& out) {
-  out.lambertian = true;
+  out.diffuse = true;
   out.position = at.point().position;
   out.normal = at.facing_shading_normal();
   for (Probe::End& seen : out.ends) {
@@ -74,7 +74,7 @@ Probe probe(const Scene& scene, Tracer& tracer, Vec2 pixel) {
     const std::optional<SurfaceHit> hit = tracer.next(ray, weight, segments);
     if (!hit) break;
     const Scattering at(hit->point, *hit->bsdf, -ray.direction, Carried::radiance);
-    if (at.diffuse_reflectance()) {
+    if (at.diffuse_reflectance() || at.coated_reflectance()) {
       look_around(tracer, at, out);
       break;
     }
@@ -88,7 +88,7 @@ Probe probe(const Scene& scene, Tracer& tracer, Vec2 pixel) {
 
 /// Do pixels show one surface, or nearly so?
 bool alike(const Probe& a, const Probe& b) {
-  return a.lambertian && b.lambertian && a.way == b.way && dot(a.normal, b.normal) > kMinCosine;
+  return a.diffuse && b.diffuse && a.way == b.way && dot(a.normal, b.normal) > kMinCosine;
 }
 
 /// [m] from the surface at a pixel to that at the nearest one beside it; infinite if it ends there.
@@ -157,7 +157,7 @@ Rgb GatherSharing::shared(const GatheredGrid& grid, int x, int y, float shrink) 
   const auto weight = [&](int i, int j) {
     if (i < 0 || i >= grid.width || j < 0 || j >= grid.height) return 0.0f;
     const Gathered& other = grid.at(i, j);
-    if (!other.lambertian || other.way != center.way) return 0.0f;
+    if (!other.diffuse || other.way != center.way || other.coated != center.coated) return 0.0f;
     if (other.segments != center.segments) return 0.0f;
     if (!is_finite(other.radiance)) return 0.0f;
     for (int c = 0; c < 3; ++c) {
@@ -193,7 +193,7 @@ GatherSharing learn_sharing(const Scene& scene, const RenderConfig& config) {
   std::vector<SharingLimit> limits(grid.probes.size());
   for_each_pixel(grid.width, grid.height, [&](int x, int y) {
     const std::size_t pixel = grid.index(x, y);
-    if (!grid.probes[pixel].lambertian) return;
+    if (!grid.probes[pixel].diffuse) return;
     limits[pixel] = {mean_nearness(grid, x, y, kMostPixels / share) * (1 / share),
                      grid.probes[pixel].way};
   });

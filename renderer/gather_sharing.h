@@ -3,10 +3,10 @@
 // tracing solution for diffuse interreflection", SIGGRAPH 1988), while each gather knows it by a
 // few rays only. So within a small share of that distance a pixel takes the mean of its neighbours'
 // gathers, as the surface would see them were it white; its own texture, direct light and caustics
-// stay its own. Towards a wall close by that is next to nothing, and no light goes around it, as it
-// is farther from either side than the share. Along that wall light changes no faster than
-// elsewhere: there, as in a corner along its edge, the few pixels that may share at all do. What
-// mirrors and glass show is shared by the places that are seen there.
+// stay its own, and so does the gloss of a coat. Towards a wall close by that is next to nothing,
+// and no light goes around it, as it is farther from either side than the share. Along that wall
+// light changes no faster than elsewhere: there, as in a corner along its edge, the few pixels that
+// may share at all do. What mirrors and glass show is shared by the places that are seen there.
 //
 // Neighbours count in pairs, one on either side and each as much as the other, so that a slope of
 // the irradiance cancels, and only its curvature is blurred. How far is known before the first
@@ -37,14 +37,16 @@ class Way {
   std::uint64_t turns_ = 1;
 };
 
-/// What an eye path gathered on the first Lambertian surface it met.
+/// What an eye path gathered on the first surface it met that is Lambertian, or is so under a coat:
+/// of that one what comes through the coat, its gloss not.
 struct Gathered {
   Vec3 position, normal;  // [m], facing shading normal
   Rgb reflectance;        // times the weight of the path
   Rgb radiance;           // [W m^-2 sr^-1], were the surface white
   int segments = 0;       // from the eye
   Way way = {};
-  bool lambertian = false;  // else nothing of the above is set: there was none
+  const Bsdf* coated = nullptr;  // the BSDF, if there is a coat: others pass other light
+  bool diffuse = false;          // else nothing of the above is set: there was none
 
   /// What the eye sees of it, if the surface is lit so.
   Rgb seen(Rgb lit) const { return reflectance * lit; }
@@ -96,7 +98,7 @@ class GatherSharing {
   explicit GatherSharing(std::vector<SharingLimit> limits) : limits_(std::move(limits)) {}
 
   bool any() const { return !limits_.empty(); }
-  /// If any pixel shares: `radiance` of a Lambertian pixel, averaged over those within `shrink`
+  /// If any pixel shares: `radiance` of a diffuse pixel, averaged over those within `shrink`
   /// times its reach.
   Rgb shared(const GatheredGrid& grid, int x, int y, float shrink) const;
   /// Row by row; empty if no pixel shares.

@@ -119,7 +119,7 @@ void add_shared(SampleGrid& grid, const GatheredGrid& gathered, const GatherShar
                 float shrink) {
   for_each_pixel(grid.width, grid.height, [&](int x, int y) {
     const Gathered& own = gathered.at(x, y);
-    if (!own.lambertian) return;
+    if (!own.diffuse) return;
     EyeSample& sample = grid.samples[static_cast<std::size_t>(y) * grid.width + x];
     sample.indirect += own.seen(sharing.shared(gathered, x, y, shrink));
   });

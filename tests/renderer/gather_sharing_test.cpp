@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 
+#include "core/bsdf_makers.h"
 #include "core/rng.h"
 #include "tests/renderer/renders.h"
 
@@ -27,7 +28,7 @@ GatheredGrid wall(int size, const std::function<Rgb(int x, int y)>& radiance) {
            .reflectance = Rgb(0.5f),
            .radiance = radiance(x, y),
            .segments = 1,
-           .lambertian = true});
+           .diffuse = true});
     }
   }
   return grid;
@@ -89,6 +90,8 @@ TEST_P(NeighbouringPixel, CountsOnlyIfItKnows) {
   EXPECT_EQ(as_far_as(0.25f, grid).shared(grid, 3, 3, 0.3f).r, 0);
 }
 
+const std::unique_ptr<Bsdf> kCoat = make_plastic({});
+
 const Other kOthers[] = {
     {"Alike", [](Gathered&) {}, true},
     {"ATurnOfTheWall",
@@ -107,7 +110,8 @@ const Other kOthers[] = {
      },
      false},
     {"FarBehind", [](Gathered& g) { g.position.z = -0.3f; }, false},
-    {"Glossy", [](Gathered& g) { g.lambertian = false; }, false},
+    {"Glossy", [](Gathered& g) { g.diffuse = false; }, false},
+    {"UnderACoat", [](Gathered& g) { g.coated = kCoat.get(); }, false},
     {"BehindAPane", [](Gathered& g) { g.segments = 2; }, false},
     {"InAMirror", [](Gathered& g) { g.way.add(false); }, false},
     {"BlackInOneChannel",
@@ -265,6 +269,21 @@ TEST(GatherSharingSlow, DoesSoInAMirror) {
   const std::vector<SharingLimit> limits = learn_sharing(*scene, {}).limits();
   for (const SharingLimit& limit : limits) ASSERT_EQ(limit.way, mirrored);
   expect_less_noise(*scene, 0.5);
+}
+
+/// Varnish whose gloss is gathered with the base, and one whose gloss is followed.
+TEST(GatherSharingSlow, DoesSoUnderACoat) {
+  for (const char* alpha : {"0.3", "0.1"}) {
+    const auto scene = scene_from(
+        "<scene version='3.0.0'>" + sensor_xml("0, 2, -1.9", "0, 2, 0", 60, kSize, kSize) +
+        "<shape type='cube'><transform name='to_world'><scale value='2'/><translate y='2'/>"
+        "</transform><bsdf type='twosided'><bsdf type='roughplastic'><float name='alpha' value='" +
+        alpha + R"('/><rgb name='diffuse_reflectance' value='0.6, 0.5, 0.3'/></bsdf></bsdf></shape>
+        <shape type='rectangle'><transform name='to_world'><scale value='0.7'/>
+          <rotate x='1' angle='90'/><translate y='3.9'/></transform><emitter type='area'/></shape>
+        </scene>)");
+    expect_less_noise(*scene, 0.6);
+  }
 }
 
 }  // namespace
