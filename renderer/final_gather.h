@@ -31,8 +31,9 @@ struct Learned {
 
 /// Radiance split by path class.
 struct SplitRadiance {
-  Rgb direct, caustic, indirect;
-  Rgb base;  // of indirect light, what a Lambertian surface scatters, or the base under a coat
+  Rgb direct, caustic, indirect;  // the last without `base`
+  Rgb base;  // indirect light, too: all that is scattered where the eye path gathers, but for the
+             // gloss of a coat over a diffuse base
   Rgb total() const { return direct + caustic + indirect + base; }
 };
 

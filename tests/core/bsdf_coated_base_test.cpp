@@ -2,6 +2,8 @@
 // either direction has, and part of the smooth lobes.
 #include <gtest/gtest.h>
 
+#include "core/constants.h"
+#include "core/scattering.h"
 #include "tests/core/bsdf_testing.h"
 
 namespace octolux {
@@ -35,6 +37,27 @@ TEST(CoatedBase, IsAProductWithinTheSmoothLobes) {
   EXPECT_EQ(coats[0]->coated_base(kPoint, -o, i), Rgb(0));
   EXPECT_FALSE(make_plastic({.diffuse_reflectance = Rgb(0)})->coated_base(kPoint, o, i));
   EXPECT_FALSE(make_diffuse(base)->coated_base(kPoint, o, i));
+}
+
+/// Gloss is not shared: where it is strong the base's share is small, and without it whole.
+TEST(CoatedBase, IsTheShareThatTheGlossLeaves) {
+  const SurfacePoint at = kPoint;
+  const Vec3 wo = direction(0.6, 0), mirrored = direction(0.6, kPi),
+             elsewhere = direction(0.6, 0.1);
+  RoughPlasticConfig config{{.diffuse_reflectance = Color(Rgb(0.2f, 0.5f, 0.8f))}};
+  config.alpha = 0.25f;
+  const auto gathered = make_rough_plastic(config);
+  const Scattering seen(at, *gathered, wo, Carried::radiance);
+  for (const Vec3 wi : {mirrored, elsewhere}) {
+    const Rgb share = seen.coated_share(wi), all = seen.f(wi, Lobes::smooth);
+    const Rgb base = gathered->coated_base(at, wo, wi).value();
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(share[c] * all[c], base[c], 1e-6);
+  }
+  EXPECT_LT(seen.coated_share(mirrored).r, 0.5f);
+  EXPECT_GT(seen.coated_share(elsewhere).r, 0.9f);
+  config.alpha = 0.1f;
+  const auto followed = make_rough_plastic(config);
+  EXPECT_EQ(Scattering(at, *followed, wo, Carried::radiance).coated_share(mirrored), Rgb(1));
 }
 
 }  // namespace

@@ -73,6 +73,25 @@ TEST(Agreement, LampsInAGlossyPlate) {
   EXPECT_GT(z_test_p((photon.mean() - path.mean()) / sigma), kAlpha);
 }
 
+/// A white plate under an even sky, mirrored in one that is not quite smooth: samples with a gather
+/// and those of direct light alone must share out the sky alike.
+TEST(Agreement, SkylightBehindAGlossyPlate) {
+  const auto scene = scene_from(
+      "<scene version='3.0.0'>" + sensor_xml("0, 0, 1", "0, 0, 0", 60, 16, 16) +
+      "<shape type='rectangle'><bsdf type='roughconductor'><string name='material' value='none'/>"
+      "<float name='alpha' value='0.15'/></bsdf></shape><shape type='rectangle'><transform "
+      "name='to_world'><scale value='4'/><rotate y='1' angle='180'/><translate z='4'/></transform>"
+      "</shape><emitter type='constant'/></scene>");
+  RenderConfig config = photon_config(128, 5'000);
+  config.eye.light_samples = 1;
+  config.eye.direct_samples = 3;
+  const Running path = pass_means(*scene, path_config(2048)), photon = pass_means(*scene, config);
+  const double sigma = std::sqrt(path.variance_of_mean() + photon.variance_of_mean());
+  std::printf("  photon / path %.4f +- %.4f\n", photon.mean() / path.mean(), sigma / path.mean());
+  EXPECT_LT(sigma, 0.0015 * path.mean());
+  EXPECT_NEAR(photon.mean(), path.mean(), 0.002 * path.mean() + 3 * sigma);
+}
+
 /// Varnished walls and a metal floor: what either shows is followed by chance or on several paths,
 /// and must weigh as much as if one path had followed it always.
 TEST(Agreement, RoomOfMetalAndVarnish) {
