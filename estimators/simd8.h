@@ -1,5 +1,5 @@
 // Eight floats at once, by the vector types that GCC and Clang share; compilers turn them into
-// whatever the processor has. Only what OctoBoxes need.
+// whatever the processor has. Only what the program needs.
 #pragma once
 
 #include <cmath>
@@ -15,6 +15,7 @@ namespace octolux {
 
 using Float8 __attribute__((vector_size(32))) = float;
 using Mask8 __attribute__((vector_size(32))) = int;  // all bits set, or none; or integers
+using Unsigned8 __attribute__((vector_size(32))) = unsigned;
 using Float4 __attribute__((vector_size(16))) = float;
 using Int4 __attribute__((vector_size(16))) = int;
 using Double4 __attribute__((vector_size(32))) = double;
@@ -46,6 +47,14 @@ OCTOLUX_INLINE Float8 sqrt8(Float8 a) {
 }
 /// 1 where the mask is set, else 0.
 OCTOLUX_INLINE Float8 ones8(Mask8 m) { return m ? splat8(1) : splat8(0); }
+
+OCTOLUX_INLINE bool any8(Mask8 m) {
+  const auto w = reinterpret_as<Long4>(m);
+  return ((w[0] | w[1]) | (w[2] | w[3])) != 0;
+}
+OCTOLUX_INLINE Float8 reverse8(Float8 a) {
+  return __builtin_shufflevector(a, a, 7, 6, 5, 4, 3, 2, 1, 0);
+}
 
 template <class V>
 OCTOLUX_INLINE auto sum8(V v) {

@@ -16,8 +16,7 @@ namespace octolux {
 
 namespace {
 
-constexpr int kMostPixels = 3;       // how far apart pixels may be that share
-constexpr float kMinCosine = 0.95f;  // between their normals
+constexpr float kMinCosine = 0.95f;  // between normals of pixels that are probed together
 constexpr int kProbeRays = 2;        // from each pixel
 constexpr int kProbeBounces = 8;     // by specular lobes
 constexpr int kProbePixels = 2;      // how far apart pixels may be that are probed together
@@ -148,38 +147,6 @@ float Nearness::times(Vec3 d) const {
   return even_ * distance + across / distance;
 }
 
-Rgb GatherSharing::shared(const GatheredGrid& grid, int x, int y, float shrink) const {
-  const Gathered& center = grid.at(x, y);
-  const SharingLimit& own = limits_[static_cast<std::size_t>(&center - grid.pixels.data())];
-  if (own.way != center.way) return center.radiance;
-  const Nearness limit = own.nearness * (1 / shrink);
-  // Epanechnikov's kernel of the distance; 0 for pixels that do not know what the center asks.
-  const auto weight = [&](int i, int j) {
-    if (i < 0 || i >= grid.width || j < 0 || j >= grid.height) return 0.0f;
-    const Gathered& other = grid.at(i, j);
-    if (!other.diffuse || other.way != center.way || other.coated != center.coated) return 0.0f;
-    if (other.segments != center.segments) return 0.0f;
-    if (!is_finite(other.radiance)) return 0.0f;
-    for (int c = 0; c < 3; ++c) {
-      if (center.reflectance[c] > 0 && !(other.reflectance[c] > 0)) return 0.0f;
-    }
-    if (!(dot(other.normal, center.normal) > kMinCosine)) return 0.0f;
-    const float share = limit.times(other.position - center.position);
-    return share < 1 ? 1 - share * share : 0.0f;
-  };
-  Rgb sum = center.radiance;
-  float total = 1;
-  for (int j = 0; j <= kMostPixels; ++j) {
-    for (int i = j == 0 ? 1 : -kMostPixels; i <= kMostPixels; ++i) {
-      const float each = std::min(weight(x + i, y + j), weight(x - i, y - j));
-      if (!(each > 0)) continue;
-      sum += (grid.at(x + i, y + j).radiance + grid.at(x - i, y - j).radiance) * each;
-      total += 2 * each;
-    }
-  }
-  return sum / total;
-}
-
 GatherSharing learn_sharing(const Scene& scene, const RenderConfig& config) {
   if (!config.eye.gather || !(config.eye.share > 0)) return {};
   ProbeGrid grid(scene.film.crop_width, scene.film.crop_height);
@@ -194,7 +161,7 @@ GatherSharing learn_sharing(const Scene& scene, const RenderConfig& config) {
   for_each_pixel(grid.width, grid.height, [&](int x, int y) {
     const std::size_t pixel = grid.index(x, y);
     if (!grid.probes[pixel].diffuse) return;
-    limits[pixel] = {mean_nearness(grid, x, y, kMostPixels / share) * (1 / share),
+    limits[pixel] = {mean_nearness(grid, x, y, kAlongPixels / share) * (1 / share),
                      grid.probes[pixel].way};
   });
   return GatherSharing(std::move(limits));

@@ -5,8 +5,9 @@
 // gathers, as the surface would see them were it white; its own texture, direct light and caustics
 // stay its own, and so does the gloss of a coat. Towards a wall close by that is next to nothing,
 // and no light goes around it, as it is farther from either side than the share. Along that wall
-// light changes no faster than elsewhere: there, as in a corner along its edge, the few pixels that
-// may share at all do. What mirrors and glass show is shared by the places that are seen there.
+// light changes no faster than elsewhere: there, as in a corner along its edge, the next few pixels
+// share, but none farther off. What mirrors and glass show is shared by the places that are seen
+// there.
 //
 // Neighbours count in pairs, one on either side and each as much as the other, so that a slope of
 // the irradiance cancels, and only its curvature is blurred. How far is known before the first
@@ -15,6 +16,7 @@
 // picture with sharing and without.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <vector>
 
@@ -31,7 +33,7 @@ class Way {
  public:
   /// Goes on to another surface.
   void add(bool transmitted) { turns_ = 2 * turns_ + (transmitted ? 1 : 0); }
-  bool operator==(const Way&) const = default;
+  auto operator<=>(const Way&) const = default;
 
  private:
   std::uint64_t turns_ = 1;
@@ -51,6 +53,10 @@ struct Gathered {
   /// What the eye sees of it, if the surface is lit so.
   Rgb seen(Rgb lit) const { return reflectance * lit; }
 };
+
+/// How far apart pixels may be that share along what is close. Farther ones share only where all
+/// that lies around is farther than the share, of the one as of the other.
+inline constexpr int kAlongPixels = 3;
 
 /// One of each pixel, row by row, all at the same place of their pixels.
 struct GatheredGrid {
@@ -73,14 +79,18 @@ class Nearness {
   /// along it, no nearer than `most`.
   void add(float inverse, Vec3 normal, float most);
   Nearness operator*(float factor) const;
-  /// |d| [m] times the nearness along d.
+  /// |d| [m] times the nearness along d: |d| even + sum of d_i d_j excess_ij / |d|.
   float times(Vec3 d) const;
+  float even() const { return even_; }
+  Vec3 excess_squares() const { return squares_; }    // xx, yy, zz
+  Vec3 excess_products() const { return products_; }  // yz, zx, xy
+  /// Were each thing as near whatever the way: no less than in any direction.
+  float most() const { return even_ + squares_.x + squares_.y + squares_.z; }
 
  private:
   float even_ = 0;
   // What is more across surfaces: the sum of excess * normal normal^T.
-  Vec3 squares_{};   // xx, yy, zz
-  Vec3 products_{};  // yz, zx, xy
+  Vec3 squares_{}, products_{};
 };
 
 /// How far a pixel shares what paths of one way gather; those of others share nothing.
@@ -89,7 +99,7 @@ struct SharingLimit {
   Way way = {};
 };
 
-/// How far each pixel shares. Immutable, so thread-safe.
+/// How far each pixel shares (shared_gathers.h does). Immutable, so thread-safe.
 class GatherSharing {
  public:
   /// No pixel does.
@@ -98,9 +108,6 @@ class GatherSharing {
   explicit GatherSharing(std::vector<SharingLimit> limits) : limits_(std::move(limits)) {}
 
   bool any() const { return !limits_.empty(); }
-  /// If any pixel shares: `radiance` of a diffuse pixel, averaged over those within `shrink`
-  /// times its reach.
-  Rgb shared(const GatheredGrid& grid, int x, int y, float shrink) const;
   /// Row by row; empty if no pixel shares.
   const std::vector<SharingLimit>& limits() const { return limits_; }
 

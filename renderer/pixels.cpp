@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "renderer/shared_gathers.h"
 #include "renderer/tiles.h"
 
 namespace octolux {
@@ -117,11 +118,12 @@ SampleGrid trace_grid(const Scene& scene, std::uint64_t seed, std::uint64_t numb
 /// Adds what was gathered to what each path saw.
 void add_shared(SampleGrid& grid, const GatheredGrid& gathered, const GatherSharing& sharing,
                 float shrink) {
+  const SharedGathers neighbours(gathered, sharing, shrink);
   for_each_pixel(grid.width, grid.height, [&](int x, int y) {
     const Gathered& own = gathered.at(x, y);
     if (!own.diffuse) return;
     EyeSample& sample = grid.samples[static_cast<std::size_t>(y) * grid.width + x];
-    sample.indirect += own.seen(sharing.shared(gathered, x, y, shrink));
+    sample.indirect += own.seen(neighbours.shared(x, y));
   });
 }
 

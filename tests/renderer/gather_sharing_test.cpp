@@ -1,129 +1,13 @@
-// renderer/gather_sharing.h: which pixels share what they gather, how far, and that it leaves the
-// picture as it is, but for the noise.
+// renderer/gather_sharing.h: how far pixels share what they gather, and that it leaves the picture
+// as it is, but for the noise.
 #include "renderer/gather_sharing.h"
 
 #include <gtest/gtest.h>
 
-#include <functional>
-#include <limits>
-
-#include "core/bsdf_makers.h"
-#include "core/rng.h"
 #include "tests/renderer/renders.h"
 
 namespace octolux::test {
 namespace {
-
-constexpr float kSpacing = 0.1f;  // [m] of the pixels
-constexpr float kWide = std::numeric_limits<float>::max();
-
-/// A wall seen from the front.
-GatheredGrid wall(int size, const std::function<Rgb(int x, int y)>& radiance) {
-  GatheredGrid grid{size, size, {}};
-  for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x) {
-      grid.pixels.push_back(
-          {.position = {kSpacing * static_cast<float>(x), kSpacing * static_cast<float>(y), 0},
-           .normal = {0, 0, 1},
-           .reflectance = Rgb(0.5f),
-           .radiance = radiance(x, y),
-           .segments = 1,
-           .diffuse = true});
-    }
-  }
-  return grid;
-}
-
-GatherSharing as_far_as(float reach, const GatheredGrid& grid) {
-  return GatherSharing(std::vector<SharingLimit>(grid.pixels.size(), {Nearness(1 / reach), {}}));
-}
-
-TEST(GatherSharing, ASlopeIsKept) {
-  const auto slope = [](int x, int y) {
-    return Rgb(1 + 0.1f * static_cast<float>(x) + 0.2f * static_cast<float>(y));
-  };
-  const GatheredGrid grid = wall(12, slope);
-  for (const float reach : {0.15f, 0.3f, kWide}) {
-    const GatherSharing sharing = as_far_as(reach, grid);
-    for (int y = 0; y < 12; ++y) {
-      for (int x = 0; x < 12; ++x) {
-        EXPECT_NEAR(sharing.shared(grid, x, y, 1).r, slope(x, y).r, 1e-5) << x << ' ' << y;
-      }
-    }
-  }
-}
-
-TEST(GatherSharing, NoiseIsThatOfTheMean) {
-  Rng rng(1, Stream::test, 0, 0);
-  const GatheredGrid grid = wall(70, [&](int, int) { return Rgb(rng.uniform()); });
-  const GatherSharing sharing = as_far_as(kWide, grid);
-  Running means;  // of pixels that have no neighbour in common
-  for (int y = 3; y < 70; y += 7) {
-    for (int x = 3; x < 70; x += 7) means.add(sharing.shared(grid, x, y, 1).r);
-  }
-  // Uniform numbers have a variance of 1/12, means of 49 a 49th; that of a hundred is known to
-  // sqrt(2 / 99).
-  EXPECT_NEAR(means.variance() * 12 * 49, 1, 4 * std::sqrt(2.0 / 99));
-}
-
-TEST(GatherSharing, NothingIsSharedWherePixelsMiddlesSawNothingToShare) {
-  const GatheredGrid grid = wall(7, [](int x, int y) { return Rgb(static_cast<float>(x * y)); });
-  const GatherSharing sharing(std::vector<SharingLimit>(grid.pixels.size()));
-  for (int i = 0; i < 7; ++i) EXPECT_EQ(sharing.shared(grid, i, 4, 0.9f).r, 4.0f * i);
-}
-
-struct Other {
-  const char* name;
-  std::function<void(Gathered&)> make;  // of a pixel next to the middle
-  bool counts;
-};
-
-class NeighbouringPixel : public testing::TestWithParam<Other> {};
-
-TEST_P(NeighbouringPixel, CountsOnlyIfItKnows) {
-  GatheredGrid grid = wall(7, [](int, int) { return Rgb(0); });
-  Gathered& other = grid.pixels[3 * 7 + 4];
-  other.radiance = Rgb(100);
-  GetParam().make(other);
-  const float shared = as_far_as(0.25f, grid).shared(grid, 3, 3, 1).r;
-  EXPECT_EQ(shared > 0, GetParam().counts) << shared;
-  EXPECT_EQ(as_far_as(0.25f, grid).shared(grid, 3, 3, 0.3f).r, 0);
-}
-
-const std::unique_ptr<Bsdf> kCoat = make_plastic({});
-
-const Other kOthers[] = {
-    {"Alike", [](Gathered&) {}, true},
-    {"ATurnOfTheWall",
-     [](Gathered& g) {
-       g.normal = normalize(Vec3{0.2f, 0, 1});
-     },
-     true},
-    {"AnotherWall",
-     [](Gathered& g) {
-       g.normal = {1, 0, 0};
-     },
-     false},
-    {"TheBackOfIt",
-     [](Gathered& g) {
-       g.normal = {0, 0, -1};
-     },
-     false},
-    {"FarBehind", [](Gathered& g) { g.position.z = -0.3f; }, false},
-    {"Glossy", [](Gathered& g) { g.diffuse = false; }, false},
-    {"UnderACoat", [](Gathered& g) { g.coated = kCoat.get(); }, false},
-    {"BehindAPane", [](Gathered& g) { g.segments = 2; }, false},
-    {"InAMirror", [](Gathered& g) { g.way.add(false); }, false},
-    {"BlackInOneChannel",
-     [](Gathered& g) {
-       g.reflectance = {0.5f, 0, 0.5f};
-     },
-     false},
-    {"Darker", [](Gathered& g) { g.reflectance = Rgb(0.01f); }, true},
-    {"NotFinite", [](Gathered& g) { g.radiance = Rgb(INFINITY); }, false},
-};
-INSTANTIATE_TEST_SUITE_P(Kinds, NeighbouringPixel, testing::ValuesIn(kOthers),
-                         [](const auto& param) { return param.param.name; });
 
 /// Seen from 1 m above: a floor under a ceiling of this height, which may be missing.
 std::unique_ptr<Scene> floor_under(double ceiling) {
