@@ -1,6 +1,6 @@
 // What each pixel takes from its neighbours' gathers: the mean over those that know the same
-// surface and are near enough (gather_sharing.h). Two hundred neighbours of every pixel are asked
-// in every sample, so what they gathered is laid out for eight to be asked at once.
+// surface and are near enough (gather_sharing.h). Over four hundred neighbours of every pixel are
+// asked in every sample, so what they gathered is laid out for eight to be asked at once.
 #pragma once
 
 #include <array>
